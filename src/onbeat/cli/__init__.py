@@ -1,0 +1,23 @@
+"""The command line: one short file per command."""
+
+from __future__ import annotations
+
+import sys
+
+import cyclopts
+
+import onbeat
+
+app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__)
+
+
+def main() -> None:
+    """Run the command line; a user's error becomes one line on stderr and exit status 1."""
+    try:
+        app()
+    except onbeat.OnbeatError as error:
+        print(f"onbeat: {error}", file=sys.stderr)  # noqa: T201
+        sys.exit(1)
+    except KeyboardInterrupt:
+        print("onbeat: stopped", file=sys.stderr)  # noqa: T201
+        sys.exit(130)

@@ -1,0 +1,153 @@
+"""What is heard in a song: beats, downbeats, chord changes, intensity; and its document, ``song.json``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import msgspec
+import numpy as np
+
+from onbeat._shapes import Array, Times
+from onbeat.errors import AudioError
+
+VERSION = 1
+
+
+class IntensityDocument(msgspec.Struct, frozen=True):
+    """Intensity over time: seconds and values 0…1."""
+
+    times: list[float]
+    values: list[float]
+
+
+class SongDocument(msgspec.Struct, frozen=True, forbid_unknown_fields=False):
+    """``song.json``: times in seconds from the song's start."""
+
+    version: int
+    duration: float
+    tempo: float
+    meter: int
+    beats: list[float]
+    downbeats: list[float]
+    chord_change: list[float]
+    intensity: IntensityDocument
+    method: str = ""
+    title: str = ""
+
+
+def _frozen(values: object) -> Array:
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+@dataclass(frozen=True, eq=False)
+class Song:
+    """What a dance needs to know of a song.
+
+    Parameters
+    ----------
+    duration : seconds.
+    tempo : beats per minute, from a line through the beats; 0 where no beat is heard.
+    meter : beats in a bar.
+    beats : (B,) seconds.
+    downbeats : seconds, a subset of the beats.
+    chord_change : (B,) degree of chord change at each beat, 0…1.
+    intensity_times : (N,) seconds.
+    intensity : (N,) musical intensity, 0…1.
+    method : which method heard it.
+    title : its name, for people.
+
+    Examples
+    --------
+    >>> song = Song(2.0, 120.0, 4, [0.5, 1.0, 1.5], [0.5], [1, 0, 0], [0, 1], [0.2, 0.8])
+    >>> float(song.intensity_at(np.array([0.5]))[0])
+    0.5
+    """
+
+    duration: float
+    tempo: float
+    meter: int
+    beats: Times
+    downbeats: Times
+    chord_change: Array
+    intensity_times: Times
+    intensity: Array
+    method: str = ""
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        for name in ("beats", "downbeats", "chord_change", "intensity_times", "intensity"):
+            object.__setattr__(self, name, _frozen(getattr(self, name)))
+        if len(self.chord_change) != len(self.beats) or len(self.intensity) != len(self.intensity_times):
+            raise AudioError(
+                f"a song with {len(self.beats)} beats has {len(self.chord_change)} chord changes, and "
+                f"{len(self.intensity)} intensities at {len(self.intensity_times)} times; they must agree"
+            )
+
+    def intensity_at(self, times: Times) -> Array:
+        """Intensity at any times, by linear interpolation."""
+        if not len(self.intensity):
+            return np.zeros(len(times))
+        return np.interp(times, self.intensity_times, self.intensity)
+
+    def cut(self, start: float, seconds: float) -> Song:
+        """The song from ``start`` on for ``seconds``, its times shifted to begin at 0."""
+        end = min(start + seconds, self.duration)
+        inside = (self.beats >= start) & (self.beats < end)
+        within = (self.intensity_times >= start) & (self.intensity_times < end)
+        return Song(
+            duration=max(end - start, 0.0),
+            tempo=self.tempo,
+            meter=self.meter,
+            beats=self.beats[inside] - start,
+            downbeats=self.downbeats[(self.downbeats >= start) & (self.downbeats < end)] - start,
+            chord_change=self.chord_change[inside],
+            intensity_times=self.intensity_times[within] - start,
+            intensity=self.intensity[within],
+            method=self.method,
+            title=self.title,
+        )
+
+    def document(self) -> SongDocument:
+        """The song as its document; times to 0.1 ms, values to 1e-4."""
+        return SongDocument(
+            version=VERSION,
+            duration=round(self.duration, 4),
+            tempo=round(self.tempo, 3),
+            meter=self.meter,
+            beats=np.round(self.beats, 4).tolist(),
+            downbeats=np.round(self.downbeats, 4).tolist(),
+            chord_change=np.round(self.chord_change, 4).tolist(),
+            intensity=IntensityDocument(
+                np.round(self.intensity_times, 4).tolist(), np.round(self.intensity, 4).tolist()
+            ),
+            method=self.method,
+            title=self.title,
+        )
+
+    def to_json(self) -> bytes:
+        """The document as JSON bytes."""
+        return msgspec.json.encode(self.document()) + b"\n"
+
+    @classmethod
+    def from_json(cls, data: bytes, source: str = "song.json") -> Song:
+        """Read a document; an ``AudioError`` says what is wrong with it."""
+        try:
+            document = msgspec.json.decode(data, type=SongDocument)
+        except msgspec.DecodeError as error:
+            raise AudioError(f"{source}: not a song document: {error}; write one with `onbeat listen`") from None
+        if document.version != VERSION:
+            raise AudioError(f"{source}: version {document.version}; this onbeat reads version {VERSION}")
+        return cls(
+            document.duration,
+            document.tempo,
+            document.meter,
+            np.array(document.beats),
+            np.array(document.downbeats),
+            np.array(document.chord_change),
+            np.array(document.intensity.times),
+            np.array(document.intensity.values),
+            document.method,
+            document.title,
+        )
