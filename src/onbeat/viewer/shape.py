@@ -1,0 +1,166 @@
+"""The shape of a drawn body: capsules between joints, with radii by role.
+
+Everything that draws a dancer (the page, the software renderer) takes its body from here, so that a dancer looks
+alike everywhere. A capsule lies on the line through two joints: its ends are ``a + start (b - a)`` and
+``a + end (b - a)``, mostly the joints themselves (0 and 1); a value outside 0…1 reaches past a joint, as a skull
+does past the last joint of the neck. All lengths grow with the body's legs. A skeleton without roles is drawn as
+plain bones.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from onbeat.motion import Body, Skeleton
+from onbeat.motion.body import chain_length
+
+ADULT_LEG = 0.82
+"""Metres from hip to ankle of the adult for whom the radii below hold."""
+GROUPS = (
+    "head",
+    "torso",
+    *(f"{side}_{part}" for side in ("left", "right") for part in ("arm", "hand", "leg", "foot")),
+)
+"""The colour groups."""
+
+
+class Capsule(NamedTuple):
+    """A tapering capsule on the line from one joint to another; radii in metres at its two ends."""
+
+    joint_a: int
+    joint_b: int
+    radius_a: float
+    radius_b: float
+    group: str
+    start: float = 0.0
+    end: float = 1.0
+
+
+def capsules(skeleton: Skeleton, body: Body | None) -> list[Capsule]:
+    """The capsules that make a body; plain bones where ``body`` is None.
+
+    Examples
+    --------
+    >>> arm = Skeleton(("elbow", "wrist"), [-1, 0], [[0, 0, 0], [0.25, 0, 0]])
+    >>> capsules(arm, None)
+    [Capsule(joint_a=0, joint_b=1, radius_a=0.03, radius_b=0.025, group='torso', start=0.0, end=1.0)]
+    """
+    if body is None:
+        return _bones(skeleton)
+    size = min(max(body.leg_length / ADULT_LEG, 0.2), 3.0)
+    made = [*_torso(body), *_head(body, size)]
+    for side in ("left", "right"):
+        made += [*_arm(body, side), *_hand(body, side, size), *_leg(body, side, size), *_foot(body, side, size)]
+    return [c._replace(radius_a=c.radius_a * size, radius_b=c.radius_b * size) for c in made]
+
+
+def _bones(skeleton: Skeleton) -> list[Capsule]:
+    """A thin capsule for each bone that has a length."""
+    made: list[Capsule] = []
+    for joint, length in enumerate(skeleton.bone_lengths.tolist()):
+        if joint and length > 1e-4:
+            radius = min(0.03, 0.25 * length)
+            made.append(Capsule(int(skeleton.parents[joint]), joint, radius, radius / 1.2, "torso"))
+    return made
+
+
+def _torso(body: Body) -> list[Capsule]:
+    hips, chest = body["hips"], body["chest"]
+    left_shoulder, right_shoulder = body["left_shoulder"], body["right_shoulder"]
+    left_hip, right_hip = body["left_hip"], body["right_hip"]
+    top = body["neck"] if "neck" in body else chest
+    made = [
+        Capsule(left_hip, right_hip, 0.092, 0.092, "torso"),
+        Capsule(hips, chest, 0.1, 0.1, "torso"),
+        Capsule(left_shoulder, right_shoulder, 0.058, 0.058, "torso", 0.04, 0.96),
+    ]
+    if top != chest:
+        made.append(Capsule(chest, top, 0.1, 0.06, "torso"))
+    for shoulder, hip in ((left_shoulder, left_hip), (right_shoulder, right_hip)):
+        # From the waist out to the shoulder and from the chest out to the hip: a narrow waist, a broad chest.
+        made.append(Capsule(hips, shoulder, 0.09, 0.07, "torso", 0.3, 0.9))
+        made.append(Capsule(chest, hip, 0.09, 0.088, "torso", 0.3, 0.97))
+    return made
+
+
+def _head(body: Body, size: float) -> list[Capsule]:
+    base = body["neck"] if "neck" in body else body["chest"]
+    head = body["head"] if "head" in body else base
+    if head == base:
+        return [_skull(body["hips"], base, 0.28 * size, _length(body, body["hips"], base), size)]
+    neck = Capsule(base, head, 0.055, 0.05, "torso")
+    tips = [child for child in body.skeleton.children[head] if body.skeleton.bone_lengths[child] > 0.04 * size]
+    if tips:
+        above = float(body.skeleton.bone_lengths[tips[0]])
+        # The crown is at the tip; where a file's tip is far off, the skull stays near its joint.
+        centre = min(max(above - 0.115 * size, -0.02 * size), 0.11 * size)
+        skull = Capsule(
+            head, tips[0], 0.092, 0.1, "head", (centre - 0.025 * size) / above, (centre + 0.02 * size) / above
+        )
+        return [neck, skull]
+    return [neck, _skull(base, head, 0.085 * size, _length(body, base, head), size)]
+
+
+def _skull(base: int, head: int, above: float, length: float, size: float) -> Capsule:
+    """A skull whose centre is ``above`` metres past ``head`` on the line from ``base``, ``length`` metres away."""
+    length = max(length, 0.02 * size)
+    return Capsule(
+        base, head, 0.092, 0.1, "head", 1 + (above - 0.025 * size) / length, 1 + (above + 0.02 * size) / length
+    )
+
+
+def _arm(body: Body, side: str) -> list[Capsule]:
+    shoulder, elbow, wrist = (body[f"{side}_{role}"] for role in ("shoulder", "elbow", "wrist"))
+    return [
+        Capsule(shoulder, elbow, 0.055, 0.04, f"{side}_arm"),
+        Capsule(elbow, wrist, 0.041, 0.028, f"{side}_arm"),
+    ]
+
+
+def _hand(body: Body, side: str, size: float) -> list[Capsule]:
+    elbow, wrist = body[f"{side}_elbow"], body[f"{side}_wrist"]
+    tip = body[f"{side}_hand"] if f"{side}_hand" in body else wrist
+    while body.skeleton.children[tip] and tip != wrist:
+        tip = body.skeleton.children[tip][0]
+    length = _length(body, wrist, tip)
+    group = f"{side}_hand"
+    if length < 0.03 * size:
+        forearm = max(_length(body, elbow, wrist), 0.05 * size)
+        palm, end = 1 + 0.08 * size / forearm, 1 + 0.15 * size / forearm
+        return [
+            Capsule(elbow, wrist, 0.027, 0.035, group, 1.0, palm),
+            Capsule(elbow, wrist, 0.035, 0.018, group, palm, end),
+        ]
+    end = min(max(1.0, 0.16 * size / length), 2.5)
+    return [
+        Capsule(wrist, tip, 0.027, 0.035, group, 0.0, 0.55 * end),
+        Capsule(wrist, tip, 0.035, 0.018, group, 0.55 * end, end),
+    ]
+
+
+def _leg(body: Body, side: str, size: float) -> list[Capsule]:
+    hip, knee, ankle = (body[f"{side}_{role}"] for role in ("hip", "knee", "ankle"))
+    shin = max(_length(body, knee, ankle), 0.05 * size)
+    return [
+        Capsule(hip, knee, 0.086, 0.054, f"{side}_leg"),
+        Capsule(knee, ankle, 0.056, 0.038, f"{side}_leg"),
+        # The heel lies below the ankle, on the shin's line.
+        Capsule(knee, ankle, 0.038, 0.036, f"{side}_foot", 1.0, 1.0 + 0.03 * size / shin),
+    ]
+
+
+def _foot(body: Body, side: str, size: float) -> list[Capsule]:
+    toe = body.joints.get(f"{side}_toe")
+    if toe is None:
+        return []
+    group, ankle = f"{side}_foot", body[f"{side}_ankle"]
+    made = [Capsule(ankle, toe, 0.04, 0.03, group)]
+    ends = [child for child in body.skeleton.children[toe] if body.skeleton.bone_lengths[child] > 0.01 * size]
+    if ends:
+        made.append(Capsule(toe, ends[0], 0.03, 0.022, group))
+    return made
+
+
+def _length(body: Body, top: int, bottom: int) -> float:
+    """Metres along the bones from ``top`` down to ``bottom``."""
+    return chain_length(body.skeleton, top, bottom) if top != bottom else 0.0
