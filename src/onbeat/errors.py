@@ -33,3 +33,7 @@ class PlanError(OnbeatError):
 
 class MissingExtraError(OnbeatError):
     """An optional dependency is not installed."""
+
+
+class MetricError(OnbeatError):
+    """Something that cannot be measured: times out of order, shapes that disagree."""
