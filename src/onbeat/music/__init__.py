@@ -1,5 +1,6 @@
 """Hearing a song."""
 
+from onbeat.music.listen import METHODS, listen, listen_samples
 from onbeat.music.song import Song
 
-__all__ = ["Song"]
+__all__ = ["METHODS", "Song", "listen", "listen_samples"]

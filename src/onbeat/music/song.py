@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import msgspec
 import numpy as np
@@ -33,6 +33,7 @@ class SongDocument(msgspec.Struct, frozen=True, forbid_unknown_fields=False):
     intensity: IntensityDocument
     method: str = ""
     title: str = ""
+    beat_strength: list[float] = msgspec.field(default_factory=list[float])
 
 
 def _frozen(values: object) -> Array:
@@ -57,6 +58,7 @@ class Song:
     intensity : (N,) musical intensity, 0…1.
     method : which method heard it.
     title : its name, for people.
+    beat_strength : (B,) accent of each beat, 0…1; all 1 where nothing is given.
 
     Examples
     --------
@@ -75,10 +77,15 @@ class Song:
     intensity: Array
     method: str = ""
     title: str = ""
+    beat_strength: Array = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
-        for name in ("beats", "downbeats", "chord_change", "intensity_times", "intensity"):
+        if not len(self.beat_strength):
+            object.__setattr__(self, "beat_strength", np.ones(len(self.beats)))
+        for name in ("beats", "downbeats", "chord_change", "intensity_times", "intensity", "beat_strength"):
             object.__setattr__(self, name, _frozen(getattr(self, name)))
+        if len(self.beat_strength) != len(self.beats):
+            raise AudioError(f"a song with {len(self.beats)} beats has {len(self.beat_strength)} beat strengths")
         if len(self.chord_change) != len(self.beats) or len(self.intensity) != len(self.intensity_times):
             raise AudioError(
                 f"a song with {len(self.beats)} beats has {len(self.chord_change)} chord changes, and "
@@ -107,6 +114,7 @@ class Song:
             intensity=self.intensity[within],
             method=self.method,
             title=self.title,
+            beat_strength=self.beat_strength[inside],
         )
 
     def document(self) -> SongDocument:
@@ -124,6 +132,7 @@ class Song:
             ),
             method=self.method,
             title=self.title,
+            beat_strength=np.round(self.beat_strength, 4).tolist(),
         )
 
     def to_json(self) -> bytes:
@@ -150,4 +159,5 @@ class Song:
             np.array(document.intensity.values),
             document.method,
             document.title,
+            np.array(document.beat_strength),
         )

@@ -1,0 +1,187 @@
+"""Reading sound: any file, any rate, any number of channels, in blocks, so that hours of it fit in memory.
+
+Wave, FLAC, Ogg and MP3 are read by libsndfile; M4A and the sound of videos by PyAV, an extra. Samples are
+mixed down to mono by the mean of the channels and resampled as they stream by.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import soundfile
+import soxr
+
+from onbeat._shapes import Float32
+from onbeat.errors import AudioError
+from onbeat.music.containers import PACKED, ContainerSource
+
+RATE = 22050  # [Hz], enough for beats and harmony
+BLOCK_SECONDS = 20.0
+USABLE_SECONDS = 1.0  # of a damaged file, below which nothing is worth using
+
+
+class AudioWarning(UserWarning):
+    """A file that is damaged, of which the readable part is used."""
+
+
+@dataclass(frozen=True)
+class Audio:
+    """Mono sound.
+
+    Parameters
+    ----------
+    samples : (N,) float32, full scale ±1.
+    rate : samples per second.
+    """
+
+    samples: Float32
+    rate: int
+
+    @property
+    def duration(self) -> float:
+        """Length in seconds."""
+        return len(self.samples) / self.rate
+
+
+class _FileSource:
+    """A file that libsndfile reads: blocks of (N, channels) float32 from a start on."""
+
+    def __init__(self, path: Path) -> None:
+        try:
+            self._file = soundfile.SoundFile(str(path))
+        except (soundfile.LibsndfileError, RuntimeError, TypeError) as error:
+            reason = str(getattr(error, "error_string", error)).rstrip(".")
+            raise AudioError(
+                f"{path}: not a sound file that can be read ({reason}); expected wav, flac, ogg or mp3"
+            ) from None
+        self.rate: int = self._file.samplerate
+        self.channels: int = self._file.channels
+        self.duration = self._file.frames / self.rate
+
+    def blocks(self, start: float, frames: int) -> Iterator[Float32]:
+        """Blocks of ``frames`` samples from ``start`` seconds on; raises RuntimeError where the data break."""
+        with self._file as file:
+            if start > 0.0:
+                file.seek(min(round(start * self.rate), file.frames))
+            while len(block := file.read(frames, dtype="float32", always_2d=True)):
+                yield block
+
+
+def _open(path: str | os.PathLike[str]) -> _FileSource | ContainerSource:
+    path = Path(path)
+    if not path.exists():
+        raise AudioError(f"{path}: no such file; give the path of a song")
+    if path.is_dir():
+        raise AudioError(f"{path}: is a folder; give one song in it")
+    try:
+        if path.stat().st_size == 0:
+            raise AudioError(f"{path}: the file is empty (0 bytes); expected a song")
+        with path.open("rb"):
+            pass
+    except OSError as error:
+        raise AudioError(f"{path}: cannot be read: {error.strerror or error}") from None
+    return ContainerSource(path) if path.suffix.lower() in PACKED else _FileSource(path)
+
+
+def _usable(path: str | os.PathLike[str], read: float, expected: float, reason: object) -> None:
+    """Say that a damaged file is used as far as it goes, or refuse it where that is too little."""
+    if read < USABLE_SECONDS:
+        raise AudioError(f"{path}: damaged after {read:.1f} s ({reason}); use a whole copy of the song")
+    warnings.warn(
+        f"{path}: damaged or cut off: {read:.1f} s of {expected:.1f} s can be read and are used",
+        AudioWarning,
+        stacklevel=4,
+    )
+
+
+def _native_blocks(path: str | os.PathLike[str], start: float, seconds: float | None) -> Iterator[tuple[Float32, int]]:
+    """Blocks (N, channels) and their rate, as they are in the file."""
+    source = _open(path)
+    if start < 0.0 or (seconds is not None and seconds <= 0.0):
+        raise AudioError(f"{path}: a stretch from {start} s for {seconds} s; expected start ≥ 0 and seconds > 0")
+    if start > 0.0 and start >= source.duration:
+        raise AudioError(f"{path}: is {source.duration:.1f} s long; --start {start:g} lies behind its end")
+    expected = max(source.duration - start, 0.0)
+    wanted = round((expected if seconds is None else min(seconds, expected)) * source.rate)
+    left = wanted if seconds is not None else np.iinfo(np.int64).max
+    read = 0
+    blocks = source.blocks(start, round(BLOCK_SECONDS * source.rate))
+    try:
+        for block in blocks:
+            block = block[: max(left - read, 0)]
+            if not len(block):
+                break
+            if not np.isfinite(block).all():
+                raise AudioError(f"{path}: holds samples that are not numbers near {start + read / source.rate:.1f} s")
+            yield block, source.rate
+            read += len(block)
+    except (RuntimeError, OSError) as error:
+        _usable(path, read / source.rate, wanted / source.rate, error)
+        return
+    if read == 0:
+        raise AudioError(f"{path}: holds no sound (0 samples); expected a song")
+    if read < 0.98 * wanted - source.rate:
+        _usable(path, read / source.rate, wanted / source.rate, "the data end early")
+
+
+def read_blocks(
+    path: str | os.PathLike[str], start: float = 0.0, seconds: float | None = None, rate: int = RATE
+) -> Iterator[Float32]:
+    """Mono blocks (N,) float32 at ``rate``, one after the other; only one is in memory at a time.
+
+    Raises
+    ------
+    AudioError
+        If the file is missing, a folder, empty, not sound, or holds samples that are not numbers.
+    """
+    stream: soxr.ResampleStream | None = None
+    for block, native in _native_blocks(path, start, seconds):
+        mono = np.ascontiguousarray(block.mean(axis=1, dtype=np.float32))
+        if native == rate:
+            yield mono
+            continue
+        stream = stream or soxr.ResampleStream(native, rate, 1, dtype="float32")
+        if len(resampled := stream.resample_chunk(mono)):
+            yield resampled
+    if stream is not None and len(rest := stream.resample_chunk(np.zeros(0, np.float32), last=True)):
+        yield rest
+
+
+def read_audio(
+    path: str | os.PathLike[str], start: float = 0.0, seconds: float | None = None, rate: int = RATE
+) -> Audio:
+    """Read a stretch of a song as mono at ``rate``.
+
+    Parameters
+    ----------
+    path : wav, flac, ogg, mp3; with the extra ``video`` also m4a, mp4 and other containers.
+    start, seconds : the stretch, in seconds; all of it by default.
+    rate : samples per second of what is given back.
+
+    Raises
+    ------
+    AudioError
+        One clear sentence for whatever is wrong with the file.
+    MissingExtraError
+        If the file needs PyAV and it is not installed.
+    """
+    return Audio(np.concatenate(list(read_blocks(path, start, seconds, rate))), rate)
+
+
+def read_stereo(path: str | os.PathLike[str], start: float = 0.0, seconds: float | None = None) -> tuple[Float32, int]:
+    """Samples (N, 1 or 2) as they are in the file and their rate; more channels are mixed to mono."""
+    blocks = list(_native_blocks(path, start, seconds))
+    samples = np.concatenate([block for block, _ in blocks])
+    if samples.shape[1] > 2:
+        samples = samples.mean(axis=1, keepdims=True, dtype=np.float32)
+    return samples, blocks[0][1]
+
+
+def audio_duration(path: str | os.PathLike[str]) -> float:
+    """Length of a song in seconds, from its header."""
+    return _open(path).duration

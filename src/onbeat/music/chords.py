@@ -1,0 +1,54 @@
+"""Degree of chord change at each beat, from semitones (the default; Shiratori's own is in ``shiratori2006.py``)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from onbeat._shapes import Array, Float32, Times
+
+BASS_TONES = 38  # semitones from A1 up to 500 Hz: bass sounds and their overtones (Shiratori 2006, III-B)
+
+
+def between_beats(frames: Array, rate: float, beats: Times) -> Array:
+    """Mean of the frames from each beat to the next (the last: as long as the one before): (B, bins).
+
+    >>> between_beats(np.arange(4.0)[:, None], 1.0, np.array([0.0, 2.0])).ravel().tolist()
+    [0.5, 2.5]
+    """
+    last = beats[-1] + (beats[-1] - beats[-2] if len(beats) > 1 else 1.0)
+    edges = np.clip(np.round(np.append(beats, last) * rate).astype(np.int64), 0, len(frames))
+    sums = np.concatenate([np.zeros((1, frames.shape[1])), np.cumsum(frames, axis=0, dtype=np.float64)])
+    return (sums[edges[1:]] - sums[edges[:-1]]) / np.maximum(np.diff(edges), 1)[:, None]
+
+
+def prominence(tones: Float32) -> Float32:
+    """How far each semitone stands out from its neighbours in its frame, on a scale of loudness (power to the 0.3)."""
+    loud = np.maximum(tones, 0.0) ** 0.3
+    padded = np.pad(loud, ((0, 0), (3, 3)), mode="edge")
+    ground = np.lib.stride_tricks.sliding_window_view(padded, 7, axis=1).mean(axis=2, dtype=np.float32)
+    return np.maximum(loud - ground, 0.0)
+
+
+def fold_octaves(tones: Array) -> Array:
+    """Semitones (N, K) to the twelve of the octave (N, 12), each row of length 1 where there is sound."""
+    chroma = np.stack([tones[:, note::12].sum(axis=1) for note in range(12)], axis=1)
+    return chroma / np.maximum(np.linalg.norm(chroma, axis=1, keepdims=True), 1e-9)
+
+
+def chord_change(tones: Float32, rate: float, beats: Times) -> Array:
+    """How much the harmony at each beat differs from that of the beat before: (B,), 0…1.
+
+    The mean of what Eqs. 5–6 measure (new tones under 500 Hz, as a share of all) and of the distance of the chroma.
+    """
+    if not len(beats):
+        return np.zeros(0)
+    slices = between_beats(prominence(tones), rate, beats)
+    bass = slices[:, :BASS_TONES]
+    new = np.maximum(np.diff(bass, axis=0), 0.0).sum(axis=1) / np.maximum(bass[1:].sum(axis=1), 1e-9)
+    chroma = fold_octaves(slices)
+    distance = 1.0 - (chroma[1:] * chroma[:-1]).sum(axis=1)
+    sounding = slices.sum(axis=1) > 0.05 * np.median(slices.sum(axis=1))
+    change = np.where(sounding[1:], 0.5 * (new + distance), 0.0)
+    return np.clip(
+        np.concatenate([[0.0], change]) / max(np.percentile(change, 95), 0.15) if len(change) else np.zeros(1), 0, 1
+    )

@@ -1,0 +1,93 @@
+"""Hearing a song: from a file to its beats, downbeats, chord changes and intensity."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from onbeat._shapes import Float32
+from onbeat.errors import AudioError
+from onbeat.music.audio import RATE, Audio, read_blocks
+from onbeat.music.song import Song
+
+SHORTEST = 2.0  # [s] two beats at the slowest tempo need this long
+SILENT = 1e-4  # highest sample (−80 dB) under which a song is silent
+
+Progress = Callable[[float], None]
+Method = Callable[[Iterable[Float32], int, Progress | None], Song]
+
+METHODS = ("barpointer", "shiratori2006")
+
+
+def _method(name: str) -> Method:
+    # Imported when called: scipy and numba take a second that `onbeat --help` need not wait for.
+    if name == "barpointer":
+        from onbeat.music.barpointer import listen_barpointer
+
+        return listen_barpointer
+    if name == "shiratori2006":
+        from onbeat.music.shiratori2006 import listen_shiratori2006
+
+        return listen_shiratori2006
+    raise AudioError(f"no listening method {name!r}; there are {', '.join(METHODS)}")
+
+
+def _watched(blocks: Iterable[Float32], rate: int, name: str) -> Iterator[Float32]:
+    """The blocks as they pass by; at their end a song that is too short or silent is refused, before it is analysed."""
+    samples, peak = 0, 0.0
+    for block in blocks:
+        samples += len(block)
+        peak = max(peak, float(np.abs(block).max(initial=0.0)))
+        yield block
+    seconds = samples / rate
+    if seconds < SHORTEST:
+        raise AudioError(f"{name}: {seconds:.2f} s is too short to hear a beat in; give at least {SHORTEST:g} s")
+    if peak < SILENT:
+        raise AudioError(
+            f"{name}: silent for all of its {seconds:.1f} s (highest sample {peak:.1g} of 1): nothing to dance to; "
+            "check the file, or choose another stretch with --start and --seconds"
+        )
+
+
+def listen_samples(audio: Audio, method: str = METHODS[0], title: str = "", progress: Progress | None = None) -> Song:
+    """Hear sound that is in memory already.
+
+    Raises
+    ------
+    AudioError
+        If it is silent, or shorter than two seconds.
+    """
+    block = 20 * audio.rate
+    blocks = (audio.samples[begin : begin + block] for begin in range(0, len(audio.samples), block))
+    return replace(
+        _method(method)(_watched(blocks, audio.rate, title or "the sound"), audio.rate, progress), title=title
+    )
+
+
+def listen(
+    path: str | os.PathLike[str],
+    method: str = METHODS[0],
+    start: float = 0.0,
+    seconds: float | None = None,
+    progress: Progress | None = None,
+) -> Song:
+    """Hear a song.
+
+    Parameters
+    ----------
+    path : wav, flac, ogg or mp3; with the extra ``video`` also m4a, mp4 and others.
+    method : one of ``METHODS``.
+    start, seconds : the stretch to hear; the song's clock then starts at ``start``.
+    progress : called with the seconds heard so far.
+
+    Raises
+    ------
+    AudioError
+        If the file cannot be read, is silent, or is shorter than two seconds.
+    """
+    song = _method(method)(_watched(read_blocks(path, start, seconds, RATE), RATE, str(path)), RATE, progress)
+    return replace(song, title=Path(path).stem)

@@ -1,0 +1,113 @@
+"""Tempo: which tempi there are, how likely each is, what tempo a list of beats has, and a tempo to dance to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from onbeat._shapes import Array, Ints, Times
+from onbeat.music.song import Song
+
+SLOWEST, FASTEST = 40.0, 240.0  # [BPM]
+USUAL = 115.0  # [BPM]
+SPREAD = 0.45  # standard deviation of the natural logarithm of the tempo
+DANCE_SLOWEST, DANCE_FASTEST = 70.0, 140.0  # [BPM]
+
+
+@dataclass(frozen=True)
+class BeatSpace:
+    """The beat intervals that are considered, in frames (Krebs, Böck & Widmer 2015: a tempo lasts for whole beats).
+
+    Parameters
+    ----------
+    rate : frames per second.
+    intervals : (K,) frames between two beats.
+    log_prior : (K,) how likely each tempo is before anything is heard.
+    log_change : (K, K) how likely the tempo of the next beat is, from row to column.
+    """
+
+    rate: float
+    intervals: Ints
+    log_prior: Array
+    log_change: Array
+
+
+def log_tempo_prior(tempo: Array, usual: float = USUAL, spread: float = SPREAD) -> Array:
+    """Log-normal prior on tempo, 0 at the usual one.
+
+    >>> log_tempo_prior(np.array([115.0])).tolist()
+    [0.0]
+    """
+    return -0.5 * (np.log(tempo / usual) / spread) ** 2
+
+
+def beat_space(rate: float, steadiness: float) -> BeatSpace:
+    """All intervals of whole frames from 240 to 40 BPM; a change to ratio r costs ``steadiness * |r − 1|``."""
+    intervals = np.arange(int(np.ceil(60.0 * rate / FASTEST)), int(60.0 * rate / SLOWEST) + 1)
+    ratio = intervals[None, :] / intervals[:, None]
+    change = -steadiness * np.abs(ratio - 1.0)
+    change -= np.log(np.exp(change).sum(axis=1, keepdims=True))
+    return BeatSpace(rate, intervals, log_tempo_prior(60.0 * rate / intervals), change)
+
+
+def tempo_of(beats: Times) -> float:
+    """Beats per minute of the straight line through the beats; 0 for fewer than two.
+
+    >>> round(tempo_of(np.array([0.5, 1.0, 1.5, 2.0])), 6)
+    120.0
+    """
+    if len(beats) < 2:
+        return 0.0
+    index = np.arange(len(beats)) - (len(beats) - 1) / 2.0
+    return float(60.0 * (index @ index) / (index @ beats))
+
+
+def danceable_beats(song: Song, slowest: float = DANCE_SLOWEST, fastest: float = DANCE_FASTEST) -> Song:
+    """The song with its beats folded to a tempo one dances to: halved above ``fastest``, doubled below ``slowest``.
+
+    Halving keeps the half of the beats with more downbeats (and, between equals, more chord change); the meter is
+    halved where it is even and kept where it is odd (a waltz at 180 is danced one step in two beats, across bars).
+    Doubling puts a beat without chord change between each two.
+
+    >>> song = Song(4.0, 200.0, 4, np.arange(12) * 0.3, np.arange(0, 12, 4) * 0.3, np.ones(12), [0, 4], [1, 1])
+    >>> danceable_beats(song).tempo
+    100.0
+    """
+    while song.tempo > fastest and len(song.beats) > 3:
+        song = _halved(song)
+    while 0.0 < song.tempo < slowest and len(song.beats) > 1 and song.tempo * 2.0 <= fastest:
+        song = _doubled(song)
+    return song
+
+
+def _halved(song: Song) -> Song:
+    is_downbeat = np.isin(song.beats, song.downbeats)
+    weight = is_downbeat + 1e-3 * song.chord_change
+    first = int(weight[1::2].sum() > weight[0::2].sum())
+    kept = song.beats[first::2]
+    merged = song.chord_change[first::2].copy()
+    skipped = song.chord_change[first + 1 :: 2]
+    merged[: len(skipped)] = np.maximum(merged[: len(skipped)], skipped)
+    return replace(
+        song,
+        tempo=song.tempo / 2.0,
+        meter=song.meter // 2 if song.meter % 2 == 0 else song.meter,
+        beats=kept,
+        downbeats=song.downbeats[np.isin(song.downbeats, kept)],
+        chord_change=merged,
+        beat_strength=song.beat_strength[first::2],
+    )
+
+
+def _doubled(song: Song) -> Song:
+    beats = np.empty(2 * len(song.beats) - 1)
+    beats[0::2] = song.beats
+    beats[1::2] = (song.beats[1:] + song.beats[:-1]) / 2.0
+    change, strength = np.zeros(len(beats)), np.empty(len(beats))
+    change[0::2] = song.chord_change
+    strength[0::2] = song.beat_strength
+    strength[1::2] = 0.5 * np.minimum(song.beat_strength[1:], song.beat_strength[:-1])
+    return replace(
+        song, tempo=2.0 * song.tempo, meter=2 * song.meter, beats=beats, chord_change=change, beat_strength=strength
+    )
