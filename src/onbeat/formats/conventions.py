@@ -1,0 +1,120 @@
+"""Axes and units of motion files: what comes in becomes metres, Z up; what goes out is turned back.
+
+A file with Y up is turned by 90° about X, ``(x, y, z) → (x, −z, y)``: a proper rotation Q, so left stays left. Offsets
+and positions turn as vectors; local rotations are conjugated, ``q → Q q Q⁻¹``, so that the rest pose turns with them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from onbeat._shapes import Array, Positions, Rotations
+from onbeat.errors import BodyError, FormatError
+from onbeat.motion import Body, Motion, Skeleton
+
+UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "cmu": 0.0254 / 0.45}
+"""Metres in one unit; ``cmu`` is the length of CMU's files and of their BVH conversions."""
+
+
+@dataclass(frozen=True)
+class Convention:
+    """Which axis of a file points up, and its unit of length (one of :data:`UNITS`).
+
+    Raises
+    ------
+    FormatError
+        If the axis or the unit is not known.
+    """
+
+    up: Literal["y", "z"] = "y"
+    unit: str = "cm"
+
+    def __post_init__(self) -> None:
+        if self.up not in ("y", "z"):
+            raise FormatError(f"the up axis {self.up!r} is not known; y or z is expected")
+        if self.unit not in UNITS:
+            raise FormatError(f"the unit {self.unit!r} is not known; {', '.join(UNITS)} are expected")
+
+    @property
+    def metres(self) -> float:
+        """Metres in one unit."""
+        return UNITS[self.unit]
+
+
+def z_up_vectors(v: Positions) -> Positions:
+    """Vectors (..., 3) of a Y-up file with Z up: ``(x, y, z) → (x, −z, y)``."""
+    return np.stack((v[..., 0], -v[..., 2], v[..., 1]), axis=-1)
+
+
+def y_up_vectors(v: Positions) -> Positions:
+    """Vectors (..., 3) with Z up for a Y-up file: ``(x, y, z) → (x, z, −y)``.
+
+    Examples
+    --------
+    >>> y_up_vectors(z_up_vectors(np.array([1.0, 2.0, 3.0]))).tolist()
+    [1.0, 2.0, 3.0]
+    """
+    return np.stack((v[..., 0], v[..., 2], -v[..., 1]), axis=-1)
+
+
+def z_up_rotations(q: Rotations) -> Rotations:
+    """Rotations (..., 4) of a Y-up file with Z up: the conjugation turns the vector part only."""
+    return np.concatenate((q[..., :1], z_up_vectors(q[..., 1:])), axis=-1)
+
+
+def y_up_rotations(q: Rotations) -> Rotations:
+    """Rotations (..., 4) with Z up for a Y-up file."""
+    return np.concatenate((q[..., :1], y_up_vectors(q[..., 1:])), axis=-1)
+
+
+def z_up_motion(motion: Motion, metres: float, up: Literal["y", "z"]) -> Motion:
+    """A motion as a file tells it, in metres and with Z up."""
+    turn = z_up_vectors if up == "y" else np.asarray
+    s, t = motion.skeleton, motion.translations
+    skeleton = Skeleton(s.names, s.parents, turn(s.offsets) * metres, s.end_sites)
+    rotations = z_up_rotations(motion.rotations) if up == "y" else motion.rotations
+    translations = None if t is None else turn(t) * metres
+    return Motion(skeleton, rotations, turn(motion.root_positions) * metres, motion.fps, motion.name, translations)
+
+
+def tree_span(skeleton: Skeleton) -> float:
+    """The longest way along the bones from one joint to another, in the skeleton's unit.
+
+    It needs no rest pose that looks like a body. From head to toe or hand to foot it is 1.1 to 1.3 body heights.
+    """
+    deepest, span = np.zeros(len(skeleton)), 0.0
+    for joint in range(len(skeleton) - 1, 0, -1):
+        parent, reach = skeleton.parents[joint], deepest[joint] + skeleton.bone_lengths[joint]
+        span = max(span, float(deepest[parent] + reach))
+        deepest[parent] = max(deepest[parent], reach)
+    return span
+
+
+def guessed_unit(skeleton: Skeleton) -> str:
+    """The unit in which a skeleton is the size of a body; BVH stores none.
+
+    By :func:`tree_span`: up to 3.5 metres; 15 to 60 the CMU scale (a body of 30 units); to 400 centimetres; beyond
+    millimetres. Sizes that no body has (3.5 to 15) and skeletons without length are taken as centimetres.
+    """
+    span = tree_span(skeleton)
+    if 0 < span < 3.5:
+        return "m"
+    if 15 <= span < 60:
+        return "cmu"
+    return "cm" if span < 400 else "mm"
+
+
+def guessed_up(motion: Motion) -> Literal["y", "z"]:
+    """The axis along which the head is over the ankles in the frames themselves; Y where that does not tell."""
+    try:
+        body = Body.of(motion.skeleton)
+    except BodyError:
+        return "y"
+    some = motion[:: max(1, len(motion) // 32)]
+    top = some.positions[:, body["head"] if "head" in body else body["chest"]]
+    feet = some.positions[:, body.indices("left_ankle", "right_ankle")].mean(1)
+    mean: Array = (top - feet).mean(0)
+    return "z" if mean[2] > 2 * abs(mean[1]) else "y"
