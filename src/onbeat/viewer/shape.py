@@ -68,7 +68,7 @@ def _torso(body: Body) -> list[Capsule]:
     hips, chest = body["hips"], body["chest"]
     left_shoulder, right_shoulder = body["left_shoulder"], body["right_shoulder"]
     left_hip, right_hip = body["left_hip"], body["right_hip"]
-    top = body["neck"] if "neck" in body else chest
+    top = body.joints.get("neck", chest)
     made = [
         Capsule(left_hip, right_hip, 0.092, 0.092, "torso"),
         Capsule(hips, chest, 0.1, 0.1, "torso"),
@@ -84,8 +84,8 @@ def _torso(body: Body) -> list[Capsule]:
 
 
 def _head(body: Body, size: float) -> list[Capsule]:
-    base = body["neck"] if "neck" in body else body["chest"]
-    head = body["head"] if "head" in body else base
+    base = body.joints.get("neck", body["chest"])
+    head = body.joints.get("head", base)
     if head == base:
         return [_skull(body["hips"], base, 0.28 * size, _length(body, body["hips"], base), size)]
     neck = Capsule(base, head, 0.055, 0.05, "torso")
@@ -119,7 +119,7 @@ def _arm(body: Body, side: str) -> list[Capsule]:
 
 def _hand(body: Body, side: str, size: float) -> list[Capsule]:
     elbow, wrist = body[f"{side}_elbow"], body[f"{side}_wrist"]
-    tip = body[f"{side}_hand"] if f"{side}_hand" in body else wrist
+    tip = body.joints.get(f"{side}_hand", wrist)
     while body.skeleton.children[tip] and tip != wrist:
         tip = body.skeleton.children[tip][0]
     length = _length(body, wrist, tip)
