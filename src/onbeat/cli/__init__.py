@@ -9,6 +9,8 @@ import cyclopts
 import onbeat
 
 app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__)
+# Named by path, so that a command is imported when it is called.
+app.command("onbeat.cli.listen:listen_command", name="listen")
 
 
 def main() -> None:
