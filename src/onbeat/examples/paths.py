@@ -1,0 +1,77 @@
+"""Paths through keys: minimum-jerk moves from key to key, and the filters that give a dancer's touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from onbeat._shapes import Array, Ints, Times
+
+
+@dataclass(frozen=True)
+class Keys:
+    """Values (K, C) to be reached at ``times`` (K,); ``bulges`` (K, C) bend the way from a key to the next."""
+
+    times: Times
+    values: Array
+    bulges: Array | None = None
+
+
+def minimum_jerk(u: Array) -> Array:
+    """The share of the way done at the share ``u`` of the time: ``10u³ − 15u⁴ + 6u⁵`` (Flash & Hogan 1985).
+
+    Examples
+    --------
+    >>> minimum_jerk(np.array([0.0, 0.5, 1.0])).tolist()
+    [0.0, 0.5, 1.0]
+    """
+    return u * u * u * (10.0 + u * (6.0 * u - 15.0))
+
+
+def bump(u: Array) -> Array:
+    """0 at both ends of 0…1 with no speed and no acceleration, 1 in the middle: ``64u³(1 − u)³``."""
+    return (4.0 * u * (1.0 - u)) ** 3
+
+
+def place_in(times: Times, keys: Times) -> tuple[Ints, Array]:
+    """Which interval of ``keys`` each time is in, and which share 0…1 of it has passed."""
+    index = np.clip(np.searchsorted(keys, times, side="right") - 1, 0, len(keys) - 2)
+    start, end = keys[index], keys[index + 1]
+    return index, np.clip((times - start) / (end - start), 0.0, 1.0)
+
+
+def follow(times: Times, keys: Keys, hold: float = 0.0) -> Array:
+    """The path (F, C) at ``times`` (F,): at rest at each key, minimum jerk between.
+
+    ``hold`` is the share of each interval spent at rest, half of it after the one key, half before the next, so that
+    stops stay centred on their keys.
+    """
+    index, share = place_in(times, keys.times)
+    share = np.clip((share - hold / 2) / (1.0 - hold), 0.0, 1.0)
+    values = keys.values
+    path = values[index] + (values[index + 1] - values[index]) * minimum_jerk(share)[:, None]
+    if keys.bulges is not None:
+        path += keys.bulges[index] * bump(share)[:, None]
+    return path
+
+
+def soften(path: Array, fps: float, seconds: float) -> Array:
+    """The path smoothed by a Gaussian of ``seconds``: soft dancers flow through their poses."""
+    return gaussian_filter1d(path, max(seconds * fps, 1e-3), axis=0, mode="nearest")
+
+
+def exaggerate(path: Array, fps: float, amount: float, seconds: float = 0.09) -> Array:
+    """Wind-up before and overshoot after each move: ``x + a (x − G∗x)``.
+
+    The cartoon animation filter (Wang et al. 2006). It has no phase, so stops stay where they are.
+    """
+    return path + amount * (path - soften(path, fps, seconds))
+
+
+def follow_through(path: Array, fps: float, lag: float = 0.05) -> Array:
+    """Speed of a path (F, C) as something dragged behind feels it: smoothed and ``lag`` seconds late."""
+    velocity = soften(np.gradient(path, axis=0) * fps, fps, lag * 0.7)
+    late = round(lag * fps)
+    return np.concatenate((np.repeat(velocity[:1], late, axis=0), velocity))[: len(path)]
