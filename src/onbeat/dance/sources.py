@@ -1,0 +1,201 @@
+"""The clips of a plan, placed on the ground and read on the dance's own clock.
+
+Every move shows its clip turned about the vertical and shifted on the ground, so that at each join the dancer goes on
+from where they are and to where they face. A move can be read beyond its ends too: blends need what a clip does
+around a join.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from onbeat._shapes import Array, Bools, Ints, Positions, Rotations, Times
+from onbeat.dance.plan import DancePlan
+from onbeat.errors import FormatError, PlanError
+from onbeat.motion import rotations as rot
+from onbeat.motion.body import Body, body_frames, facing
+from onbeat.motion.motion import Motion
+from onbeat.motion.skeleton import Skeleton
+
+Warp = Callable[[Times], Times]
+"""From the dance's seconds to the plan's seconds, never going back."""
+CLOCK_STEP = 1 / 480
+"""Seconds between the points at which a warp is inverted."""
+
+
+class Pose(NamedTuple):
+    """N poses: local rotations (N, J, 4) wxyz and root positions (N, 3) in metres."""
+
+    rotations: Rotations
+    roots: Positions
+
+
+def sample(clips: Sequence[Motion], which: Ints, seconds: Times) -> Pose:
+    """Poses of clips ``which`` (N,) at ``seconds`` (N,): spherical and linear between frames, held past the ends."""
+    joints = len(clips[0].skeleton)
+    low_rotations, high_rotations = np.empty((len(which), joints, 4)), np.empty((len(which), joints, 4))
+    roots, part = np.empty((len(which), 3)), np.empty(len(which))
+    for index in np.unique(which):
+        clip, rows = clips[index], np.flatnonzero(which == index)
+        frames = np.clip(seconds[rows] * clip.fps, 0, len(clip) - 1)
+        low = np.floor(frames + 1e-6).astype(np.int64)
+        high = np.minimum(low + 1, len(clip) - 1)
+        mix = np.maximum(frames - low, 0.0)
+        low_rotations[rows], high_rotations[rows], part[rows] = clip.rotations[low], clip.rotations[high], mix
+        roots[rows] = clip.root_positions[low] * (1 - mix[:, None]) + clip.root_positions[high] * mix[:, None]
+    between = np.flatnonzero(part > 1e-4)
+    low_rotations[between] = rot.slerp(low_rotations[between], high_rotations[between], part[between, None])
+    return Pose(low_rotations, roots)
+
+
+@dataclass(frozen=True)
+class Sources:
+    """M moves, placed, on the dance's clock.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton.
+    plan : its moves.
+    warp : dance seconds to plan seconds.
+    starts : (M,) dance seconds at which each move begins.
+    turns : (M,) radians by which each move is turned about the vertical.
+    shifts : (M, 3) metres by which it is then shifted.
+    """
+
+    clips: Sequence[Motion]
+    plan: DancePlan
+    warp: Warp
+    starts: Times
+    turns: Array
+    shifts: Positions
+
+    @classmethod
+    def of(cls, clips: Sequence[Motion], plan: DancePlan, warp: Warp | None = None) -> Sources:
+        """The moves of a plan, not yet placed; raises if the plan and the clips do not fit."""
+        _check(clips, plan)
+        moves = len(plan.moves)
+        warp = _same_time if warp is None else warp
+        starts = np.concatenate(([0.0], _inverse(warp, plan.join_times, plan.duration)))
+        return cls(clips, plan, warp, starts, np.zeros(moves), np.zeros((moves, 3)))
+
+    @property
+    def skeleton(self) -> Skeleton:
+        """The skeleton of all clips."""
+        return self.clips[0].skeleton
+
+    @property
+    def joins(self) -> Times:
+        """(M-1,) dance seconds of the joins."""
+        return self.starts[1:]
+
+    @property
+    def clip_of(self) -> Ints:
+        """(M,) the clip of each move."""
+        return np.array([move.clip for move in self.plan.moves], np.int64)
+
+    def moves_at(self, times: Times) -> Ints:
+        """Which move is shown at dance times (N,)."""
+        return np.searchsorted(self.starts, times + 1e-9, side="right") - 1
+
+    def seconds(self, moves: Ints, times: Times) -> Times:
+        """Seconds in their clips of ``moves`` (N,) at dance times (N,)."""
+        begins, froms, rates = (
+            np.array([getattr(move, name) for move in self.plan.moves]) for name in ("at_s", "from_s", "rate")
+        )
+        planned = self.warp(np.clip(times, 0.0, self.plan.duration))
+        return froms[moves] + rates[moves] * (planned - begins[moves])
+
+    def pose(self, moves: Ints, times: Times) -> Pose:
+        """Placed poses of ``moves`` (N,) at dance times (N,)."""
+        raw = sample(self.clips, self.clip_of[moves], self.seconds(moves, times))
+        turn = rot.yaw(self.turns[moves])
+        raw.rotations[:, 0] = rot.multiply(turn, raw.rotations[:, 0])
+        return Pose(raw.rotations, rot.rotate(turn, raw.roots) + self.shifts[moves])
+
+
+def placed(sources: Sources, body: Body, standing: Sequence[Bools]) -> Sources:
+    """The moves turned and shifted so that facing and ground position go on at every join.
+
+    The point that stays is the foot that stands on both sides of the join (the middle of both feet where both do), so
+    that a planted foot is not moved; where none does, the waist. Facing is that of the frontal vector.
+
+    Parameters
+    ----------
+    sources : the moves.
+    body : roles of their skeleton.
+    standing : for each clip, (F, 2) true where the left, right foot rests.
+    """
+    joins, count = sources.joins, len(sources.joins)
+    before, after = np.arange(count), np.arange(1, count + 1)
+    ends = sources.pose(np.concatenate((before, after, [0])), np.concatenate((joins, joins, [0.0])))
+    motion = Motion(sources.skeleton, ends.rotations, ends.roots, fps=1.0)
+    yaw = facing(body_frames(motion, body)[0])
+    feet = motion.positions[:, body.indices(*(f"{side}_{contact_role(body)}" for side in ("left", "right")))]
+    stands = standing_at(sources, standing, np.concatenate((before, after)), np.concatenate((joins, joins)))
+    both = stands[:count] & stands[count:]
+    turns, shifts = np.zeros(count + 1), np.zeros((count + 1, 3))
+    turns[0] = -yaw[-1]
+    shifts[0] = _ground(-rot.rotate(rot.yaw(turns[0]), motion.positions[-1, body["hips"]]))
+    for k in range(count):
+        turns[k + 1] = turns[k] + yaw[k] - yaw[count + k]
+        pivots = (feet if both[k].any() else motion.positions[:, [body["hips"]]])[[k, count + k]]
+        old, new = pivots[:, both[k] if both[k].any() else slice(None)].mean(axis=1)
+        old, new = rot.rotate(rot.yaw(turns[k]), old), rot.rotate(rot.yaw(turns[k + 1]), new)
+        shifts[k + 1] = _ground(shifts[k] + old - new)
+    return Sources(sources.clips, sources.plan, sources.warp, sources.starts, turns, shifts)
+
+
+def contact_role(body: Body) -> str:
+    """The role of the point of the foot that is kept in place: the toe, or the ankle of a body without toes."""
+    return "toe" if "left_toe" in body and "right_toe" in body else "ankle"
+
+
+def standing_at(sources: Sources, standing: Sequence[Bools], moves: Ints, times: Times) -> Bools:
+    """(N, 2) whether the left, right foot rests in ``moves`` (N,) at dance times (N,)."""
+    out = np.zeros((len(moves), 2), bool)
+    which, seconds = sources.clip_of[moves], sources.seconds(moves, times)
+    for index in np.unique(which):
+        rows, labels = np.flatnonzero(which == index), standing[index]
+        frames = np.rint(seconds[rows] * sources.clips[index].fps).astype(np.int64)
+        out[rows] = labels[np.clip(frames, 0, len(labels) - 1)]
+    return out
+
+
+def _ground(shift: Positions) -> Positions:
+    return shift * np.array([1.0, 1.0, 0.0])
+
+
+def _same_time(times: Times) -> Times:
+    return times
+
+
+def _inverse(warp: Warp, planned: Times, duration: float) -> Times:
+    """Dance times at which ``warp`` reaches ``planned`` (N,)."""
+    if warp is _same_time or not len(planned):
+        return planned
+    clock = np.linspace(0.0, duration, max(2, int(np.ceil(duration / CLOCK_STEP)) + 1))
+    reached = np.asarray(warp(clock))
+    if np.any(np.diff(reached) < -1e-9) or abs(reached[0]) > 1e-3 or abs(reached[-1] - duration) > 1e-3:
+        raise PlanError(
+            f"the warp takes 0…{duration:.3f} s to {reached[0]:.3f}…{reached[-1]:.3f} s or goes back in time; "
+            "it must rise from 0 to the plan's duration"
+        )
+    return np.interp(planned, reached, clock)
+
+
+def _check(clips: Sequence[Motion], plan: DancePlan) -> None:
+    for number, move in enumerate(plan.moves):
+        if not 0 <= move.clip < len(clips):
+            raise PlanError(f"move {number} shows clip {move.clip}; there are {len(clips)} clips, counted from 0")
+    for index in sorted({move.clip for move in plan.moves}):
+        clip, first = clips[index], clips[plan.moves[0].clip]
+        if clip.skeleton != first.skeleton:
+            raise FormatError(
+                f"clip {clip.name!r} has another skeleton than {first.name!r}; retarget all clips to one skeleton first"
+            )
+        if clip.translations is not None:
+            raise FormatError(f"clip {clip.name!r} has animated bone offsets; retarget it to a fixed skeleton first")
