@@ -1,0 +1,139 @@
+"""What Python tells the page: one document, held inside the page as JSON.
+
+The page's own view of it (``viewer-js/src/contract.ts``) is written from these classes by
+:mod:`onbeat.viewer.typescript`; a test keeps the two equal. Metres, seconds, radians, right-handed, Z up. Arrays
+travel as base64 of little-endian numbers, frames first.
+"""
+
+from __future__ import annotations
+
+import base64
+
+import msgspec
+import numpy as np
+
+from onbeat._shapes import Array, Positions
+
+VERSION = 1
+STEPS = 65535
+"""Largest quantised coordinate."""
+
+
+class CapsuleData(msgspec.Struct, frozen=True):
+    """A tapering capsule between two joints of the page; see :mod:`onbeat.viewer.shape`."""
+
+    a: int
+    b: int
+    radius_a: float
+    radius_b: float
+    group: str
+    start: float
+    end: float
+
+
+class PathData(msgspec.Struct, frozen=True):
+    """Joint positions: uint16 ``q`` (frames, joints, 3) in base64, ``metres = origin + step q``."""
+
+    base64: str
+    origin: list[float]
+    step: float
+
+
+class CurveData(msgspec.Struct, frozen=True):
+    """Values 0…1 at a steady rate: uint8 ``q`` in base64, ``value = q / 255`` at time ``index / rate``."""
+
+    base64: str
+    rate: float
+
+
+class AudioData(msgspec.Struct, frozen=True):
+    """The song's sound: a data URI, its MIME type inside, and the seconds and Hz of what was encoded."""
+
+    uri: str
+    seconds: float
+    rate: int
+
+
+class MoveData(msgspec.Struct, frozen=True):
+    """One stretch of one clip: shown from ``at_s`` on, seconds ``from_s`` to ``to_s`` of the clip."""
+
+    clip: str
+    from_s: float
+    to_s: float
+    at_s: float
+
+
+class MetricData(msgspec.Struct, frozen=True):
+    """A figure of the dance, in words for people."""
+
+    name: str
+    value: str
+
+
+class PageData(msgspec.Struct, frozen=True):
+    """Everything the page shows."""
+
+    version: int
+    title: str
+    method: str
+    duration: float
+    tempo: float
+    fps: float
+    frames: int
+    joints: list[str]
+    capsules: list[CapsuleData]
+    path: PathData
+    centre: int
+    facing: float
+    floor: float
+    audio: AudioData | None
+    waveform: CurveData
+    beats: list[float]
+    downbeats: list[float]
+    stops: list[float]
+    moves: list[MoveData]
+    joins: list[float]
+    music_intensity: CurveData
+    motion_intensity: CurveData
+    metrics: list[MetricData]
+
+
+STRUCTS = (CapsuleData, PathData, CurveData, AudioData, MoveData, MetricData, PageData)
+"""All classes of the contract, parts before the whole."""
+
+
+def pack_path(positions: Positions) -> PathData:
+    """Quantise positions (frames, joints, 3) in metres to 16 bits over their largest extent.
+
+    The error is at most half a step: 0.05 mm on a stage of 6 m.
+
+    Examples
+    --------
+    >>> path = pack_path(np.array([[[0.0, 0.0, 0.0]], [[1.0, 2.0, 0.5]]]))
+    >>> np.allclose(unpack_path(path, 1), [[[0, 0, 0]], [[1, 2, 0.5]]], atol=path.step)
+    True
+    """
+    origin = positions.min(axis=(0, 1))
+    step = max(float((positions.max(axis=(0, 1)) - origin).max()), 1e-6) / STEPS
+    quantised = np.rint((positions - origin) / step).clip(0, STEPS).astype("<u2")
+    return PathData(_base64(quantised.tobytes()), [float(value) for value in origin], step)
+
+
+def unpack_path(path: PathData, joints: int) -> Positions:
+    """The positions (frames, joints, 3) in metres that the page will see."""
+    quantised = np.frombuffer(base64.b64decode(path.base64), "<u2").reshape(-1, joints, 3)
+    return np.array(path.origin) + path.step * quantised
+
+
+def pack_curve(values: Array, rate: float) -> CurveData:
+    """Values (N,), clipped to 0…1, as 8 bits each."""
+    return CurveData(_base64(np.rint(np.clip(values, 0, 1) * 255).astype(np.uint8).tobytes()), float(rate))
+
+
+def unpack_curve(curve: CurveData) -> Array:
+    """The values (N,) that the page will see."""
+    return np.frombuffer(base64.b64decode(curve.base64), np.uint8) / 255.0
+
+
+def _base64(data: bytes) -> str:
+    return base64.b64encode(data).decode("ascii")

@@ -1,0 +1,116 @@
+// The time of the dance. Where there is sound, the audio context's clock leads, as it is heard at the loudspeaker; it
+// ticks coarsely, so that the time in between is followed by the screen's clock and gently pulled to it.
+
+import type { AudioData } from "./contract";
+import { bytesOf } from "./data";
+
+const SNAP = 0.08; // [s] an error that is jumped, not pulled
+const PULL = 3; // [1/s]
+const LEAD = 0.04; // [s] from asking for sound to its first sample
+
+export class Clock {
+  playing = false;
+  rate = 1;
+  private context?: AudioContext;
+  private buffer?: AudioBuffer;
+  private source?: AudioBufferSourceNode;
+  private origin = 0; // time of the dance at `mark`
+  private mark = 0; // [s] of the leading clock
+  private shown = 0;
+  private shownAt = 0;
+
+  constructor(readonly duration: number) {}
+
+  get hasSound(): boolean {
+    return this.buffer !== undefined;
+  }
+
+  /** Unpack the sound; before that, and if it fails, the dance plays without. */
+  async load(audio: AudioData): Promise<void> {
+    const bytes = bytesOf(audio.uri.slice(audio.uri.indexOf(",") + 1));
+    const buffer = await new OfflineAudioContext(2, 1, audio.rate).decodeAudioData(bytes.buffer);
+    const at = this.now(performance.now());
+    this.buffer = buffer;
+    if (this.playing) this.restart(at);
+  }
+
+  play(): void {
+    if (this.playing) return;
+    if (this.shown >= this.duration - 0.02) this.shown = 0;
+    this.playing = true;
+    this.restart(this.shown);
+  }
+
+  pause(): void {
+    if (!this.playing) return;
+    this.shown = this.now(performance.now());
+    this.playing = false;
+    this.silence();
+    void this.context?.suspend();
+  }
+
+  seek(time: number): void {
+    const at = Math.min(Math.max(time, 0), this.duration);
+    if (this.playing) this.restart(at);
+    else this.shown = at;
+  }
+
+  setRate(rate: number): void {
+    const at = this.now(performance.now());
+    this.rate = rate;
+    if (this.playing) this.restart(at);
+  }
+
+  /** Seconds of the dance at the screen's time `now` in milliseconds. */
+  now(now: number): number {
+    if (!this.playing) return this.shown;
+    const heard = Math.max(this.origin + (this.leading(now) - this.mark) * this.rate, this.origin);
+    const passed = Math.max(now - this.shownAt, 0) / 1000;
+    const stopped = this.context !== undefined && this.context.state !== "running";
+    const guess = this.shown + (stopped ? 0 : passed * this.rate);
+    const error = heard - guess;
+    const pulled = guess + error * Math.min(1, passed * PULL);
+    this.shown = Math.abs(error) > SNAP ? heard : Math.max(pulled, this.shown);
+    this.shownAt = now;
+    return (this.shown = Math.min(this.shown, this.duration));
+  }
+
+  private restart(at: number): void {
+    this.silence();
+    this.origin = this.shown = at;
+    this.shownAt = performance.now();
+    if (this.buffer) this.startSound(this.buffer, at);
+    else this.mark = performance.now() / 1000;
+  }
+
+  private startSound(buffer: AudioBuffer, at: number): void {
+    const session = (navigator as { audioSession?: { type: string } }).audioSession;
+    if (session) session.type = "playback"; // a phone's mute switch is for ringing
+    this.context ??= new AudioContext({ latencyHint: "playback" });
+    void this.context.resume();
+    this.mark = this.context.currentTime + LEAD;
+    if (at >= buffer.duration) return;
+    this.source = this.context.createBufferSource();
+    this.source.buffer = buffer;
+    this.source.playbackRate.value = this.rate;
+    this.source.connect(this.context.destination);
+    this.source.start(this.mark, at);
+  }
+
+  private silence(): void {
+    this.source?.stop();
+    this.source?.disconnect();
+    this.source = undefined;
+  }
+
+  /** Seconds of the clock that leads: what leaves the loudspeaker now, or the screen's time. */
+  private leading(now: number): number {
+    const context = this.context;
+    if (!context || !this.buffer) return now / 1000;
+    const delayed = context.currentTime - (context.outputLatency || 0);
+    const stamp = context.getOutputTimestamp?.();
+    if (context.state !== "running" || !stamp?.contextTime || !stamp.performanceTime) return delayed;
+    const output = stamp.contextTime + (now - stamp.performanceTime) / 1000;
+    return Math.abs(output - context.currentTime) < 0.5 ? output : delayed;
+  }
+}

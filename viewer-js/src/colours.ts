@@ -1,0 +1,26 @@
+// Clip colours: one hue a clip, far from those before it.
+
+const TURN = 137.508; // [degrees], the golden angle
+const FIRST = 205;
+
+export class ClipColours {
+  private readonly hues = new Map<string, number>();
+
+  constructor(clips: readonly string[]) {
+    for (const clip of clips) {
+      if (!this.hues.has(clip)) this.hues.set(clip, (FIRST + TURN * this.hues.size) % 360);
+    }
+  }
+
+  fill(clip: string): string {
+    return `hsl(${this.hues.get(clip) ?? FIRST} 52% 82%)`;
+  }
+
+  ink(clip: string): string {
+    return `hsl(${this.hues.get(clip) ?? FIRST} 48% 30%)`;
+  }
+
+  strong(clip: string): string {
+    return `hsl(${this.hues.get(clip) ?? FIRST} 55% 52%)`;
+  }
+}

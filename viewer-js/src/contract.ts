@@ -1,0 +1,75 @@
+// Written by `python -m onbeat.viewer.typescript` from contract.py. Do not edit.
+
+export const VERSION = 1;
+
+/** A tapering capsule between two joints of the page; see :mod:`onbeat.viewer.shape`. */
+export interface CapsuleData {
+  a: number;
+  b: number;
+  radius_a: number;
+  radius_b: number;
+  group: string;
+  start: number;
+  end: number;
+}
+
+/** Joint positions: uint16 ``q`` (frames, joints, 3) in base64, ``metres = origin + step q``. */
+export interface PathData {
+  base64: string;
+  origin: number[];
+  step: number;
+}
+
+/** Values 0…1 at a steady rate: uint8 ``q`` in base64, ``value = q / 255`` at time ``index / rate``. */
+export interface CurveData {
+  base64: string;
+  rate: number;
+}
+
+/** The song's sound: a data URI, its MIME type inside, and the seconds and Hz of what was encoded. */
+export interface AudioData {
+  uri: string;
+  seconds: number;
+  rate: number;
+}
+
+/** One stretch of one clip: shown from ``at_s`` on, seconds ``from_s`` to ``to_s`` of the clip. */
+export interface MoveData {
+  clip: string;
+  from_s: number;
+  to_s: number;
+  at_s: number;
+}
+
+/** A figure of the dance, in words for people. */
+export interface MetricData {
+  name: string;
+  value: string;
+}
+
+/** Everything the page shows. */
+export interface PageData {
+  version: number;
+  title: string;
+  method: string;
+  duration: number;
+  tempo: number;
+  fps: number;
+  frames: number;
+  joints: string[];
+  capsules: CapsuleData[];
+  path: PathData;
+  centre: number;
+  facing: number;
+  floor: number;
+  audio: AudioData | null;
+  waveform: CurveData;
+  beats: number[];
+  downbeats: number[];
+  stops: number[];
+  moves: MoveData[];
+  joins: number[];
+  music_intensity: CurveData;
+  motion_intensity: CurveData;
+  metrics: MetricData[];
+}

@@ -1,0 +1,131 @@
+// The body: tapering capsules between joints, posed at any time between the frames.
+
+import * as THREE from "three";
+import type { CapsuleData, PageData } from "./contract";
+import { readPath } from "./data";
+
+const COLOURS: Record<string, string> = {
+  head: "#e8b796",
+  torso: "#e2583e",
+  arm: "#e2583e",
+  hand: "#e8b796",
+  leg: "#39405c",
+  foot: "#f4f1ec",
+};
+const UP = new THREE.Vector3(0, 1, 0);
+
+interface Limb {
+  data: CapsuleData;
+  mesh: THREE.Mesh;
+  length: number;
+}
+
+export class Dancer {
+  readonly group = new THREE.Group();
+  readonly joints: Float32Array; // joints x 3 at the time last posed
+  readonly ends: THREE.Vector4[] = []; // both ends of each capsule and its radius there
+  readonly centre = new THREE.Vector3();
+  private readonly path: Float32Array;
+  private readonly limbs: Limb[];
+
+  constructor(private readonly page: PageData) {
+    this.path = readPath(page.path);
+    this.joints = new Float32Array(page.joints.length * 3);
+    this.interpolate(0);
+    this.limbs = page.capsules.map((data) => this.limb(data));
+    this.pose(0);
+  }
+
+  pose(time: number): void {
+    this.interpolate(time);
+    const [a, b, along] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+    this.limbs.forEach(({ data, mesh, length }, i) => {
+      this.span(data, a, b);
+      along.subVectors(b, a);
+      const now = along.length();
+      mesh.position.copy(a);
+      if (now > 1e-6) mesh.quaternion.setFromUnitVectors(UP, along.divideScalar(now));
+      mesh.scale.y = length > 0.01 ? now / length : 1;
+      this.ends[2 * i].set(a.x, a.y, a.z, data.radius_a);
+      this.ends[2 * i + 1].set(b.x, b.y, b.z, data.radius_b);
+    });
+    this.centre.fromArray(this.joints, 3 * this.page.centre);
+  }
+
+  /** Metres from the floor to the highest point of the body at the time last posed. */
+  get height(): number {
+    return Math.max(...this.ends.map((end) => end.z + end.w)) - this.page.floor;
+  }
+
+  private limb(data: CapsuleData): Limb {
+    const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
+    this.span(data, a, b);
+    const length = a.distanceTo(b);
+    const part = data.group.replace(/^(left|right)_/, "");
+    const material = new THREE.MeshStandardMaterial({ color: COLOURS[part] ?? COLOURS.torso, roughness: 0.68 });
+    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), material);
+    mesh.castShadow = mesh.receiveShadow = true;
+    this.group.add(mesh);
+    this.ends.push(new THREE.Vector4(), new THREE.Vector4());
+    return { data, mesh, length };
+  }
+
+  private span(data: CapsuleData, a: THREE.Vector3, b: THREE.Vector3): void {
+    const from = new THREE.Vector3().fromArray(this.joints, 3 * data.a);
+    const to = new THREE.Vector3().fromArray(this.joints, 3 * data.b);
+    a.lerpVectors(from, to, data.start);
+    b.lerpVectors(from, to, data.end);
+  }
+
+  /** Catmull-Rom between frames, so that slow motion is smooth too. */
+  private interpolate(time: number): void {
+    const size = this.joints.length;
+    const last = this.page.frames - 1;
+    const at = Math.min(Math.max(time * this.page.fps, 0), last);
+    const frame = Math.min(Math.floor(at), Math.max(last - 1, 0));
+    const t = at - frame;
+    const [p, q, r, s] = [frame - 1, frame, frame + 1, frame + 2].map((f) => Math.min(Math.max(f, 0), last) * size);
+    const [wp, wq, wr, ws] = [
+      ((2 - t) * t - 1) * t * 0.5,
+      ((3 * t - 5) * t * t + 2) * 0.5,
+      ((4 - 3 * t) * t + 1) * t * 0.5,
+      (t - 1) * t * t * 0.5,
+    ];
+    for (let i = 0; i < size; i++) {
+      this.joints[i] = wp * this.path[p + i] + wq * this.path[q + i] + wr * this.path[r + i] + ws * this.path[s + i];
+    }
+  }
+}
+
+/** A surface of revolution about y: two spheres at 0 and `length` and the cone that touches both. */
+function capsule(length: number, radiusA: number, radiusB: number): THREE.BufferGeometry {
+  const [arc, around] = [10, 28];
+  const tilt = Math.asin(Math.min(Math.max((radiusA - radiusB) / Math.max(length, 1e-6), -0.98), 0.98));
+  const profile: [radius: number, y: number, angle: number][] = [];
+  for (let i = 0; i <= arc; i++) {
+    const angle = -Math.PI / 2 + (tilt + Math.PI / 2) * (i / arc);
+    profile.push([radiusA * Math.cos(angle), radiusA * Math.sin(angle), angle]);
+  }
+  for (let i = 0; i <= arc; i++) {
+    const angle = tilt + (Math.PI / 2 - tilt) * (i / arc);
+    profile.push([radiusB * Math.cos(angle), length + radiusB * Math.sin(angle), angle]);
+  }
+  const [points, normals, faces]: [number[], number[], number[]] = [[], [], []];
+  profile.forEach(([radius, y, angle], row) => {
+    for (let i = 0; i <= around; i++) {
+      const turn = (2 * Math.PI * i) / around;
+      const [c, s] = [Math.cos(turn), Math.sin(turn)];
+      points.push(radius * c, y, radius * s);
+      normals.push(Math.cos(angle) * c, Math.sin(angle), Math.cos(angle) * s);
+      if (row === 0 || i === 0) continue;
+      const here = row * (around + 1) + i;
+      const below = here - around - 1;
+      faces.push(below - 1, here - 1, here, below - 1, here, below);
+    }
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
+  geometry.setIndex(faces);
+  return geometry;
+}

@@ -1,0 +1,130 @@
+// Drawing what happens in a stretch of time on a strip: beats, waveform, stops, clips and joins.
+
+import type { ClipColours } from "./colours";
+import type { PageData } from "./contract";
+import { type Curve, lastBefore } from "./data";
+
+export const INK = "#262b3d";
+export const SOFT = "#8d93a5";
+export const FAINT = "#c6cad5";
+export const ACCENT = "#e2583e";
+export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
+
+/** A stretch of time laid on pixels. */
+export interface Span {
+  from: number; // [s]
+  to: number; // [s]
+  width: number; // [px]
+}
+
+export const xOf = (span: Span, time: number): number => ((time - span.from) / (span.to - span.from)) * span.width;
+export const timeAt = (span: Span, x: number): number => span.from + (x / span.width) * (span.to - span.from);
+
+type Pen = CanvasRenderingContext2D;
+
+/** Calls `draw` for each of the sorted times inside the span. */
+function inside(times: readonly number[], span: Span, margin: number, draw: (time: number) => void): void {
+  for (let i = lastBefore(times, span.from - margin) + 1; i < times.length && times[i] <= span.to + margin; i++) {
+    draw(times[i]);
+  }
+}
+
+export function drawBeats(pen: Pen, span: Span, page: PageData, top: number, bottom: number): void {
+  const downbeats = new Set(page.downbeats);
+  inside(page.beats, span, 0, (time) => {
+    const first = downbeats.has(time);
+    pen.fillStyle = first ? SOFT : FAINT;
+    pen.fillRect(Math.round(xOf(span, time)) - (first ? 1 : 0.5), top, first ? 2 : 1, bottom - top);
+  });
+}
+
+export function drawWaveform(
+  pen: Pen, span: Span, wave: Curve, middle: number, half: number, colour: string, step: number, until = Infinity,
+): void {
+  if (!wave.values.length) return;
+  pen.fillStyle = colour;
+  // Bars stand at fixed times, so that they do not shimmer while the strip glides.
+  const seconds = (step * (span.to - span.from)) / span.width;
+  for (let bar = Math.floor(span.from / seconds); bar * seconds < span.to; bar++) {
+    if (bar * seconds > until) break;
+    const low = Math.floor(bar * seconds * wave.rate);
+    const high = Math.max(low + 1, Math.floor((bar + 1) * seconds * wave.rate));
+    let level = 0;
+    for (let i = Math.max(low, 0); i < Math.min(high, wave.values.length); i++) level = Math.max(level, wave.values[i]);
+    if (low < 0 || low >= wave.values.length) continue;
+    const height = Math.max(level * half, 0.75);
+    pen.fillRect(xOf(span, bar * seconds), middle - height, step - 1, 2 * height);
+  }
+}
+
+export function drawClips(
+  pen: Pen, span: Span, page: PageData, colours: ClipColours, top: number, height: number,
+): void {
+  pen.textBaseline = "middle";
+  page.moves.forEach((move, i) => {
+    const end = page.moves[i + 1]?.at_s ?? page.duration;
+    if (end < span.from || move.at_s > span.to) return;
+    const left = xOf(span, move.at_s);
+    const right = xOf(span, end);
+    pen.fillStyle = colours.fill(move.clip);
+    pen.beginPath();
+    pen.roundRect(left + 0.75, top, Math.max(right - left - 1.5, 1), height, Math.min(4, (right - left) / 4));
+    pen.fill();
+    const [from, to] = [Math.max(left, 0) + 6, Math.min(right, span.width) - 5];
+    if (to - from < 16) return;
+    pen.save();
+    pen.beginPath();
+    pen.rect(from, top, to - from, height);
+    pen.clip();
+    pen.fillStyle = colours.ink(move.clip);
+    if (pen.measureText(move.clip).width <= to - from || left < 0) pen.fillText(move.clip, from, top + height / 2 + 0.5);
+    pen.restore();
+  });
+}
+
+export function drawStops(pen: Pen, span: Span, page: PageData, middle: number, size: number, now = -1): void {
+  inside(page.stops, span, 1, (time) => {
+    const x = xOf(span, time);
+    const flash = now >= time ? Math.max(0, 1 - (now - time) / 0.35) : 0;
+    const reach = size * (1 + 0.6 * flash);
+    pen.fillStyle = flash > 0 ? ACCENT : INK;
+    pen.beginPath();
+    pen.moveTo(x, middle - reach);
+    pen.lineTo(x + reach, middle);
+    pen.lineTo(x, middle + reach);
+    pen.lineTo(x - reach, middle);
+    pen.fill();
+  });
+}
+
+export function drawJoins(pen: Pen, span: Span, page: PageData, top: number, bottom: number): void {
+  pen.strokeStyle = INK;
+  pen.lineWidth = 1;
+  pen.setLineDash([2, 3]);
+  pen.beginPath();
+  inside(page.joins, span, 0, (time) => {
+    const x = Math.round(xOf(span, time)) + 0.5;
+    pen.moveTo(x, top);
+    pen.lineTo(x, bottom);
+  });
+  pen.stroke();
+  pen.setLineDash([]);
+}
+
+/** A curve 0…1 over the span between `bottom` and `top`; filled to the bottom where `fill`. */
+export function drawCurve(pen: Pen, span: Span, curve: Curve, top: number, bottom: number, colour: string, fill: boolean): void {
+  if (!curve.values.length) return;
+  pen.beginPath();
+  curve.values.forEach((value, i) => pen.lineTo(xOf(span, i / curve.rate), bottom - value * (bottom - top)));
+  if (fill) {
+    pen.lineTo(xOf(span, (curve.values.length - 1) / curve.rate), bottom);
+    pen.lineTo(0, bottom);
+    pen.fillStyle = colour;
+    pen.fill();
+  } else {
+    pen.strokeStyle = colour;
+    pen.lineWidth = 1.5;
+    pen.lineJoin = "round";
+    pen.stroke();
+  }
+}

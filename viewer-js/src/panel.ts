@@ -1,0 +1,153 @@
+// What is read and pressed: title, time, buttons, figures, keys. All text of the dance goes in as text, never as HTML.
+
+import type { Clock } from "./clock";
+import type { ClipColours } from "./colours";
+import type { PageData } from "./contract";
+import { lastBefore } from "./data";
+import type { Stage } from "./stage";
+
+const SPEEDS = [1, 0.5, 0.25];
+const JUMP = 2; // [s]
+
+const LEGEND: [sign: string, colour: string, words: string][] = [
+  ["│", "#8d93a5", "beat of the music, strong where a bar begins"],
+  ["◆", "#262b3d", "stop of the hands"],
+  ["┊", "#262b3d", "join of two clips"],
+  ["▆", "#d5dae4", "intensity of the music"],
+  ["∿", "#2f9c95", "intensity of the dance"],
+];
+
+export class Panel {
+  private readonly starts: number[];
+  private speed = 0;
+  private moveShown = -2;
+
+  constructor(
+    private readonly page: PageData,
+    private readonly clock: Clock,
+    private readonly stage: Stage,
+    private readonly colours: ClipColours,
+    private readonly seek: (time: number) => void,
+  ) {
+    this.starts = page.moves.map((move) => move.at_s);
+    document.title = page.title;
+    text("title", page.title);
+    text("subtitle", this.subtitle());
+    this.fillFigures();
+    on("play", () => this.toggle());
+    on("start", () => this.toggle());
+    on("follow", () => this.toggleFollow());
+    on("speed", () => this.nextSpeed());
+    text("speed", "1×");
+    at("overview").setAttribute("aria-valuemax", page.duration.toFixed(1));
+    addEventListener("keydown", (event) => this.key(event));
+  }
+
+  update(time: number, sinceBeat: number): void {
+    document.body.classList.toggle("playing", this.clock.playing);
+    at("start").hidden = this.clock.playing || time > 0;
+    const clockText = `${minutes(time)} / ${minutes(this.page.duration)}`;
+    if (at("time").textContent !== clockText) {
+      text("time", clockText);
+      at("overview").setAttribute("aria-valuenow", time.toFixed(1));
+      at("overview").setAttribute("aria-valuetext", clockText);
+    }
+    at("pulse").style.opacity = String(0.12 + 0.88 * Math.exp(-7 * sinceBeat));
+    this.showMove(lastBefore(this.starts, time));
+  }
+
+  say(message: string): void {
+    text("message", message);
+    at("message").hidden = false;
+    setTimeout(() => (at("message").hidden = true), 6000);
+  }
+
+  private subtitle(): string {
+    const parts = [minutes(this.page.duration)];
+    if (this.page.tempo > 0) parts.push(`${Math.round(this.page.tempo)} beats a minute`);
+    if (this.page.method) parts.push(this.page.method);
+    return parts.join(" · ");
+  }
+
+  private showMove(index: number): void {
+    if (index === this.moveShown) return;
+    this.moveShown = index;
+    const move = this.page.moves[index];
+    const box = at("now");
+    box.hidden = move === undefined;
+    if (!move) return;
+    (box.querySelector("i") as HTMLElement).style.color = this.colours.strong(move.clip);
+    (box.querySelector("span") as HTMLElement).textContent = move.clip;
+  }
+
+  private fillFigures(): void {
+    for (const [sign, colour, words] of LEGEND) {
+      const row = document.createElement("li");
+      const mark = document.createElement("b");
+      mark.textContent = sign;
+      mark.style.color = colour;
+      row.append(mark, words);
+      at("legend").append(row);
+    }
+    for (const metric of this.page.metrics) {
+      const [name, value] = [document.createElement("dt"), document.createElement("dd")];
+      name.textContent = metric.name;
+      value.textContent = metric.value;
+      at("metrics").append(name, value);
+    }
+    at("figures").hidden = false;
+  }
+
+  private toggle(): void {
+    if (this.clock.playing) this.clock.pause();
+    else this.clock.play();
+  }
+
+  private toggleFollow(): void {
+    this.stage.follow = !this.stage.follow;
+    at("follow").setAttribute("aria-pressed", String(this.stage.follow));
+  }
+
+  private nextSpeed(): void {
+    this.speed = (this.speed + 1) % SPEEDS.length;
+    this.clock.setRate(SPEEDS[this.speed]);
+    text("speed", `${["1", "½", "¼"][this.speed]}×`);
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const time = this.clock.now(performance.now());
+    const frame = 1 / this.page.fps;
+    const actions: Record<string, () => void> = {
+      " ": () => this.toggle(),
+      ArrowLeft: () => this.seek(time - JUMP),
+      ArrowRight: () => this.seek(time + JUMP),
+      ",": () => this.seek(time - frame),
+      ".": () => this.seek(time + frame),
+      Home: () => this.seek(0),
+      End: () => this.seek(this.page.duration),
+      f: () => this.toggleFollow(),
+    };
+    const action = actions[event.key];
+    if (!action) return;
+    event.preventDefault(); // else space would press the button last clicked, too
+    action();
+  }
+}
+
+function minutes(seconds: number): string {
+  const whole = Math.floor(seconds);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
+
+function at(id: string): HTMLElement {
+  return document.getElementById(id) as HTMLElement;
+}
+
+function text(id: string, words: string): void {
+  at(id).textContent = words;
+}
+
+function on(id: string, press: () => void): void {
+  at(id).addEventListener("click", press);
+}

@@ -1,0 +1,114 @@
+// The scene: light, ground, dancer, and a camera that orbits and follows.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { PageData } from "./contract";
+import { Dancer } from "./dancer";
+import { Ground } from "./ground";
+
+const FOLLOW = 1.6; // [1/s] how fast the camera goes after the dancer
+const FIELD_OF_VIEW = 30; // [degrees]
+
+export class Stage {
+  follow = true;
+  readonly dancer: Dancer;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 200);
+  private readonly controls: OrbitControls;
+  private readonly ground: Ground;
+  private readonly sun = new THREE.DirectionalLight("#fff4e6", 2.6);
+  private readonly target = new THREE.Vector3();
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly page: PageData,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.VSMShadowMap;
+    this.dancer = new Dancer(page);
+    this.ground = new Ground(page.floor);
+    this.scene.add(this.dancer.group, this.ground.group);
+    this.addLights();
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = true;
+    this.controls.enablePan = false;
+    this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
+    this.fit();
+    this.placeCamera();
+    new ResizeObserver(() => this.fit()).observe(canvas);
+  }
+
+  draw(time: number, seconds: number, sinceBeat: number, strength: number): void {
+    this.dancer.pose(time);
+    const centre = this.dancer.centre;
+    if (this.follow) this.goAfter(centre, 1 - Math.exp(-FOLLOW * seconds));
+    this.sun.target.position.set(centre.x, centre.y, this.page.floor + 0.8);
+    this.sun.position.copy(this.sun.target.position).add(new THREE.Vector3(...this.lightFrom()));
+    this.ground.update(centre, this.dancer.ends, sinceBeat, strength);
+    this.controls.update(seconds || undefined);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Bring the camera to the dancer at once, as after a seek. */
+  catchUp(): void {
+    if (this.follow) this.goAfter(this.dancer.centre, 1);
+  }
+
+  private goAfter(centre: THREE.Vector3, part: number): void {
+    const move = new THREE.Vector3(centre.x - this.target.x, centre.y - this.target.y, 0).multiplyScalar(part);
+    this.target.add(move);
+    this.controls.target.copy(this.target);
+    this.camera.position.add(move);
+  }
+
+  private addLights(): void {
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#c9bfb4", 1.5));
+    const rim = new THREE.DirectionalLight("#dfe8ff", 0.8);
+    rim.position.set(...this.aside(2.5, 3.0));
+    const sun = this.sun;
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(1024, 1024);
+    Object.assign(sun.shadow.camera, { left: -1.8, right: 1.8, top: 1.8, bottom: -1.8, near: 0.5, far: 12 });
+    sun.shadow.radius = 5;
+    sun.shadow.blurSamples = 12;
+    sun.shadow.bias = -0.0004;
+    this.scene.add(rim, sun, sun.target);
+  }
+
+  /** A light from above, in front of the dancer's left as he first stands. */
+  private lightFrom(): [number, number, number] {
+    const yaw = this.page.facing - 0.75;
+    return [-Math.sin(yaw) * 2.6, Math.cos(yaw) * 2.6, 4.6];
+  }
+
+  private aside(turn: number, height: number): [number, number, number] {
+    const yaw = this.page.facing + turn;
+    return [-Math.sin(yaw) * 4, Math.cos(yaw) * 4, height];
+  }
+
+  private placeCamera(): void {
+    const height = this.dancer.height;
+    const yaw = this.page.facing + 0.42;
+    this.target.set(this.dancer.centre.x, this.dancer.centre.y, this.page.floor + 0.5 * height);
+    const narrow = Math.min(this.camera.aspect / 0.95, 1);
+    const away = (0.86 * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+    const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
+    this.camera.position.copy(this.target).addScaledVector(out, away);
+    this.controls.target.copy(this.target);
+    this.controls.minDistance = 0.5 * height;
+    this.controls.maxDistance = 12 * height;
+    this.controls.update();
+  }
+
+  private fit(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+}

@@ -1,0 +1,193 @@
+// Two strips: the seconds around now, gliding under a fixed line, and the whole song. Both seek.
+
+import type { ClipColours } from "./colours";
+import type { PageData } from "./contract";
+import { type Curve, readCurve } from "./data";
+import * as lanes from "./lanes";
+
+const SECONDS_PER_PIXEL = 1 / 95;
+
+/** A canvas that is as sharp as its screen. */
+class Strip {
+  readonly pen: CanvasRenderingContext2D;
+  width = 0;
+  height = 0;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.pen = canvas.getContext("2d") as CanvasRenderingContext2D;
+  }
+
+  /** Sizes the canvas as it is laid out; true where that changed. */
+  fit(): boolean {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const scale = Math.min(devicePixelRatio || 1, 3);
+    const changed = this.canvas.width !== Math.round(width * scale) || this.canvas.height !== Math.round(height * scale);
+    if (changed) {
+      this.canvas.width = Math.round(width * scale);
+      this.canvas.height = Math.round(height * scale);
+    }
+    [this.width, this.height] = [width, height];
+    this.pen.setTransform(scale, 0, 0, scale, 0, 0);
+    return changed;
+  }
+}
+
+export class Timeline {
+  private readonly detail: Strip;
+  private readonly overview: Strip;
+  private readonly picture: Strip; // of the overview but for what moves
+  private readonly wave: Curve;
+  private readonly music: Curve;
+  private readonly motion: Curve;
+
+  constructor(
+    detail: HTMLCanvasElement,
+    overview: HTMLCanvasElement,
+    private readonly page: PageData,
+    private readonly colours: ClipColours,
+    seek: (time: number) => void,
+    private readonly now: () => number,
+  ) {
+    [this.detail, this.overview] = [new Strip(detail), new Strip(overview)];
+    this.picture = new Strip(document.createElement("canvas"));
+    this.wave = readCurve(page.waveform);
+    this.music = readCurve(page.music_intensity);
+    this.motion = readCurve(page.motion_intensity);
+    this.listenOverview(seek);
+    this.listenDetail(seek);
+  }
+
+  draw(now: number): void {
+    this.drawDetail(now);
+    this.drawOverview(now);
+  }
+
+  private whole(): lanes.Span {
+    return { from: 0, to: this.page.duration, width: this.overview.width };
+  }
+
+  private around(now: number): lanes.Span {
+    const half = (this.detail.width * SECONDS_PER_PIXEL) / 2;
+    return { from: now - half, to: now + half, width: this.detail.width };
+  }
+
+  private drawDetail(now: number): void {
+    const strip = this.detail;
+    strip.fit();
+    const { pen, width, height } = strip;
+    if (!height) return;
+    const span = this.around(now);
+    const clips = this.page.moves.length ? 22 : 0;
+    const middle = (height - clips) / 2 + 4;
+    pen.clearRect(0, 0, width, height);
+    pen.fillStyle = "#f6f7f9";
+    const [left, right] = [Math.max(lanes.xOf(span, 0), 0), Math.min(lanes.xOf(span, this.page.duration), width)];
+    pen.fillRect(left, 0, right - left, height - clips - 4);
+    pen.font = lanes.FONT;
+    lanes.drawBeats(pen, span, this.page, 0, height - clips - 4);
+    lanes.drawWaveform(pen, span, this.wave, middle, middle - 16, "#d3d8e2", 3);
+    lanes.drawWaveform(pen, span, this.wave, middle, middle - 16, "#f0b9ab", 3, now);
+    lanes.drawClips(pen, span, this.page, this.colours, height - clips, clips);
+    lanes.drawJoins(pen, span, this.page, 0, height - clips);
+    lanes.drawStops(pen, span, this.page, 9, 5, now);
+    pen.fillStyle = lanes.ACCENT;
+    pen.fillRect(width / 2 - 1, 0, 2, height);
+  }
+
+  private drawOverview(now: number): void {
+    const strip = this.overview;
+    strip.fit();
+    if (!strip.height) return;
+    this.drawPicture(strip.width, strip.height);
+    const { pen, width, height } = strip;
+    const span = this.whole();
+    pen.clearRect(0, 0, width, height);
+    const x = lanes.xOf(span, now);
+    const clips = this.clipsHeight();
+    lanes.drawWaveform(pen, span, this.wave, this.waveMiddle(height), this.waveHalf(height), "#c9cfdb", 3);
+    lanes.drawWaveform(pen, span, this.wave, this.waveMiddle(height), this.waveHalf(height), lanes.ACCENT, 3, now);
+    pen.drawImage(this.picture.canvas, 0, 0, width, height);
+    if (!this.wave.values.length) {
+      pen.fillStyle = lanes.ACCENT;
+      pen.fillRect(0, height - clips - 3, x, 2);
+    }
+    pen.fillStyle = lanes.INK;
+    pen.fillRect(Math.min(Math.max(x - 1, 0), width - 2), 0, 2, height);
+  }
+
+  private clipsHeight(): number {
+    return this.page.moves.length ? 16 : 0;
+  }
+
+  private waveMiddle(height: number): number {
+    return (height - this.clipsHeight() - 4) * 0.36;
+  }
+
+  private waveHalf(height: number): number {
+    return this.waveMiddle(height) - 1;
+  }
+
+  /** What does not move is drawn once for each size. */
+  private drawPicture(width: number, height: number): void {
+    const strip = this.picture;
+    const scale = Math.min(devicePixelRatio || 1, 3);
+    if (strip.canvas.width === Math.round(width * scale) && strip.canvas.height === Math.round(height * scale)) return;
+    strip.canvas.width = Math.round(width * scale);
+    strip.canvas.height = Math.round(height * scale);
+    const pen = strip.pen;
+    pen.setTransform(scale, 0, 0, scale, 0, 0);
+    pen.font = lanes.FONT;
+    const span = this.whole();
+    const clips = this.clipsHeight();
+    const bottom = height - clips - 4;
+    const top = this.waveMiddle(height) * 2 + 2;
+    lanes.drawCurve(pen, span, this.music, top, bottom, "#e4e8ef", true);
+    lanes.drawCurve(pen, span, this.motion, top, bottom, "#2f9c95", false);
+    lanes.drawClips(pen, span, this.page, this.colours, height - clips, clips);
+  }
+
+  private listenOverview(seek: (time: number) => void): void {
+    const canvas = this.overview.canvas;
+    const to = (event: PointerEvent) => {
+      const box = canvas.getBoundingClientRect();
+      seek(((event.clientX - box.left) / box.width) * this.page.duration);
+    };
+    drag(canvas, to, to);
+  }
+
+  /** The detail strip is dragged like a tape; a click brings the place clicked under the line. */
+  private listenDetail(seek: (time: number) => void): void {
+    const canvas = this.detail.canvas;
+    let [grip, moved] = [0, false];
+    drag(
+      canvas,
+      (event) => {
+        [grip, moved] = [lanes.timeAt(this.around(this.now()), event.offsetX), false];
+      },
+      (event) => {
+        const time = grip - lanes.timeAt(this.around(0), event.offsetX);
+        if (Math.abs(time - this.now()) > 4 * SECONDS_PER_PIXEL) moved = true;
+        if (moved) seek(time);
+      },
+      () => {
+        if (!moved) seek(grip);
+      },
+    );
+  }
+}
+
+function drag(
+  canvas: HTMLCanvasElement,
+  down: (event: PointerEvent) => void,
+  move: (event: PointerEvent) => void,
+  up?: () => void,
+): void {
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    down(event);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (canvas.hasPointerCapture(event.pointerId)) move(event);
+  });
+  canvas.addEventListener("pointerup", () => up?.());
+}
