@@ -7,8 +7,10 @@ slide and pivot, so only the surplus is a fault.
 Conventions
 -----------
 ``contacts`` are (F, 2) booleans, true where the left or right foot bears on the floor (:mod:`onbeat.motion.contacts`);
-this module does not guess them. The floor is level. Speeds are in m/s from central differences of the motion's own
-frames; accelerations are smoothed as in :mod:`onbeat.metrics.smoothness`.
+this module does not guess them. Give a dance the contacts of the frames it is made of, where they are known: contacts
+found on the dance itself leave out a foot that slides too fast to be taken for standing. The floor is level. Speeds are
+over ``SPAN`` seconds before and after each frame, so that the rate of frames changes nothing; accelerations are read as
+in :mod:`onbeat.metrics.smoothness`.
 
 Metrics
 -------
@@ -32,6 +34,8 @@ from onbeat.metrics.windows import WINDOW, near_joins, ratio, statistic
 from onbeat.motion.body import Body, chain_length
 from onbeat.motion.motion import Motion
 
+SPAN = 1 / 30
+"""Seconds before and after a frame over which a foot's speed is read."""
 STRAIGHT = 0.999
 """A leg longer than this part of its full length is straight."""
 _SIDES = ("left", "right")
@@ -50,12 +54,21 @@ def contact_speeds(motion: Motion, contacts: Bools, body: Body | None = None) ->
     """(F, 2) m/s along the floor of the left and right foot, the slower of ankle and toe; nan where not in contact."""
     validate(motion, contacts)
     body = Body.of(motion.skeleton) if body is None else body
+    speeds = [_floor_speeds(motion, _foot_joints(body, side)).min(axis=1) for side in _SIDES]
+    return np.where(contacts, np.stack(speeds, axis=1), np.nan)
+
+
+def _floor_speeds(motion: Motion, joints: list[int]) -> Array:
+    """(F, len(joints)) m/s along the floor, over ``SPAN`` seconds either way as far as the motion goes."""
     if len(motion) < 2:
-        return np.full((len(motion), 2), np.nan)
-    velocity = np.gradient(motion.positions[..., :2], 1 / motion.fps, axis=0)
-    speed = np.linalg.norm(velocity, axis=-1)
-    feet = np.stack([speed[:, _foot_joints(body, side)].min(axis=1) for side in _SIDES], axis=1)
-    return np.where(contacts, feet, np.nan)
+        return np.zeros((len(motion), len(joints)))
+    before = np.maximum(motion.times - SPAN, 0.0)
+    after = np.minimum(motion.times + SPAN, motion.times[-1])
+    ways = [
+        np.hypot(*(np.interp(after, motion.times, path) - np.interp(before, motion.times, path) for path in paths))
+        for paths in motion.positions[:, joints, :2].transpose(1, 2, 0)
+    ]
+    return np.stack(ways, axis=1) / (after - before)[:, None]
 
 
 def _foot_joints(body: Body, side: str) -> list[int]:
@@ -102,8 +115,8 @@ def evaluate(
     ``skate_<where>`` and ``skate_<where>_p95`` (median and 95th percentile, m/s), ``acceleration_<where>`` (mean, m/s²)
     for ``joins``, ``elsewhere`` and ``source``; ``skate_ratio``, ``skate_p95_ratio`` and ``acceleration_ratio``, joins
     over source (over elsewhere where no source is given); ``extension_max``, ``extension_source_max``,
-    ``over_reach_m`` (metres beyond the leg) and ``straight_part`` (of all leg-frames). None where there is nothing to
-    measure.
+    ``over_reach_m`` (metres beyond the leg), ``straight_part`` and ``straight_source_part`` (of all leg-frames).
+    None where there is nothing to measure.
     """
     speeds = contact_speeds(motion, contacts)
     inside = near_joins(motion.times, joins, window)
@@ -136,9 +149,11 @@ def _pool(arrays: list[Array]) -> Array:
 def _reach(motion: Motion, source: Sequence[Motion]) -> dict[str, float | None]:
     body = Body.of(motion.skeleton)
     extension = leg_extensions(motion, body)
+    original = _pool([leg_extensions(clip) for clip in source])
     return {
         "extension_max": float(extension.max()),
-        "extension_source_max": statistic(_pool([leg_extensions(clip) for clip in source]), "max"),
+        "extension_source_max": statistic(original, "max"),
         "over_reach_m": max(float(extension.max()) - 1.0, 0.0) * body.leg_length,
         "straight_part": float((extension > STRAIGHT).mean()),
+        "straight_source_part": float((original > STRAIGHT).mean()) if original.size else None,
     }

@@ -1,0 +1,157 @@
+"""``onbeat evaluate``: how well a motion dances to a song."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from pathlib import Path
+from typing import Annotated, Any
+
+import cyclopts
+import msgspec
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from onbeat.errors import MetricError, OnbeatError
+from onbeat.formats import read_motion
+from onbeat.metrics import beats, feet, intensity, smoothness
+from onbeat.motion import Motion
+from onbeat.motion.contacts import foot_contacts
+from onbeat.motion.features import hand_features
+from onbeat.music import Song, listen
+from onbeat.music.tempo import danceable_beats
+
+VERSION = 1
+NO_JOINS = np.zeros(0)
+_PLANNED = ("_joins", "_source", "_ratio")  # names of what only the plan of a dance can tell
+
+Scores = dict[str, float | None]
+
+
+def _song(path: Path) -> Song:
+    """A song document, or the song heard now."""
+    if path.suffix.lower() != ".json":
+        with Console(stderr=True).status(f"hearing {path.name}"):
+            return listen(path)
+    try:
+        return Song.from_json(path.read_bytes(), str(path))
+    except OSError as error:
+        raise OnbeatError(f"cannot read {path}: {error.strerror}; give a song or what `onbeat listen` wrote") from None
+
+
+def _motion(path: Path, fps: float | None) -> Motion:
+    """The motion; what its reader warns of becomes a line on stderr."""
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("always")
+        motion = read_motion(path, fps)
+    for warning in noted:
+        print(f"onbeat: {warning.message}", file=sys.stderr)  # noqa: T201
+    return motion
+
+
+def _unplanned(scores: Scores) -> Scores:
+    """The scores that need no plan; without joins, ``elsewhere`` is all of the motion."""
+    kept = {name: value for name, value in scores.items() if not any(part in name for part in _PLANNED)}
+    return {name.replace("_elsewhere", ""): value for name, value in kept.items()}
+
+
+def evaluate_motion(motion: Motion, song: Song, seed: int = 0) -> dict[str, Scores]:
+    """All scores of a motion that begins with the song, over the time both last, by the module that gives them.
+
+    Beats too fast or slow to dance to are halved or doubled as the planner of dances does.
+    """
+    duration = min(motion.duration, song.duration)
+    if duration <= 0:
+        raise MetricError("the motion begins after the song has ended; choose an earlier --start")
+    heard = danceable_beats(song).cut(0.0, duration)
+    features = hand_features(motion)
+    rng = np.random.default_rng(seed)
+    scores: dict[str, Scores] = {
+        "beats": beats.evaluate(features.body_stops, heard.beats, duration, rng, heard.downbeats),
+        "intensity": intensity.evaluate_dance(features, heard, duration),
+        "feet": _unplanned(feet.evaluate(motion, foot_contacts(motion).feet, NO_JOINS)),
+        "smoothness": _unplanned(smoothness.evaluate(motion, NO_JOINS)),
+    }
+    return {module: {name: _rounded(value) for name, value in found.items()} for module, found in scores.items()}
+
+
+def _rounded(value: float | None) -> float | None:
+    return round(value, 6) if isinstance(value, float) else value
+
+
+_ROWS = (
+    # module, score, title, digits and unit, chance, how far above it
+    ("beats", "f50", "F within 50 ms", ".2f", "f50_jitter_null", "f50_jitter_z"),
+    ("beats", "f100", "F within 100 ms", ".2f", "f100_jitter_null", "f100_jitter_z"),
+    ("beats", "precision100", "stops on a beat (100 ms)", ".0%", "", ""),
+    ("beats", "recall100", "beats with a stop", ".0%", "", ""),
+    ("beats", "strong_recall100", "downbeats with a stop", ".0%", "", ""),
+    ("beats", "beat_align_fact", "beat-align, FACT", ".2f", "beat_align_fact_null", ""),
+    ("beats", "beat_align_bailando", "beat-align, Bailando", ".2f", "beat_align_bailando_null", ""),
+    ("intensity", "intensity_pearson", "intensity, Pearson's r", ".2f", "", ""),
+    ("intensity", "intensity_spearman", "intensity, Spearman's ρ", ".2f", "", ""),
+    ("feet", "skate", "foot speed in contact (m/s)", ".3f", "", ""),
+    ("feet", "skate_p95", "… its 95th percentile", ".3f", "", ""),
+    ("feet", "over_reach_m", "legs beyond their reach (m)", ".3f", "", ""),
+    ("smoothness", "jerk_hands", "jerk of the hands (m/s³)", ".0f", "", ""),
+    ("smoothness", "jerk_feet", "jerk of the feet", ".0f", "", ""),
+)
+
+
+def _table(scores: dict[str, Scores]) -> Table:
+    table = Table("", "score", "chance", "z", box=None, pad_edge=False)
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for module, name, title, digits, chance, z in _ROWS:
+        found = scores[module]
+        table.add_row(
+            title, _text(found.get(name), digits), _text(found.get(chance), digits), _text(found.get(z), ".1f")
+        )
+    return table
+
+
+def _text(value: float | None, digits: str) -> str:
+    return "" if value is None else format(value, digits)
+
+
+def evaluate_command(
+    motion: Path,
+    *,
+    music: Path,
+    start: float = 0.0,
+    fps: float | None = None,
+    seed: int = 0,
+    json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
+) -> None:
+    """Measure how well a motion dances to a song: on the beat, with its intensity, on its feet, smoothly.
+
+    Chance is what the same stops score on beats moved by up to half an interval (F), or moved as a whole by any time
+    (beat-align); z is how many standard deviations the score is above it.
+
+    Example: ``onbeat evaluate dance.bvh --music song.wav``
+
+    Parameters
+    ----------
+    motion
+        A motion file (.bvh, .amc, .npz).
+    music
+        A song, or the ``song.json`` that ``onbeat listen`` wrote.
+    start
+        The second of the song at which the motion begins.
+    fps
+        Frames per second, where the motion file stores none.
+    seed
+        Draws the chance levels.
+    json
+        Print everything as JSON on stdout instead of a table.
+    """
+    danced, song = _motion(motion, fps), _song(music)
+    scores = evaluate_motion(danced, song.cut(start, max(song.duration - start, 0.0)), seed)
+    if json:
+        document: dict[str, Any] = {"version": VERSION, "motion": motion.name, "song": music.name, **scores}
+        sys.stdout.write(msgspec.json.format(msgspec.json.encode(document), indent=2).decode() + "\n")
+        return
+    found = scores["beats"]
+    Console(stderr=True).print(f"{motion.name} on {music.name}: {found['stops']} stops, {found['beats']} beats")
+    Console().print(_table(scores))
