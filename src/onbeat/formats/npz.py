@@ -27,17 +27,17 @@ def write_npz(motion: Motion, path: str | Path, convention: Convention | None = 
     if convention is not None and convention != Convention("z", "m"):
         raise FormatError("an .npz motion is always in metres with Z up; leave the unit and the axis out")
     s, buffer = motion.skeleton, io.BytesIO()
-    kept: dict[str, Any] = dict(
-        onbeat_motion=VERSION,
-        names=np.array(s.names),
-        parents=s.parents,
-        offsets=s.offsets,
-        end_sites=s.end_sites,
-        rotations=motion.rotations,
-        root_positions=motion.root_positions,
-        fps=motion.fps,
-        name=np.array(motion.name),
-    )
+    kept: dict[str, Any] = {
+        "onbeat_motion": VERSION,
+        "names": np.array(s.names),
+        "parents": s.parents,
+        "offsets": s.offsets,
+        "end_sites": s.end_sites,
+        "rotations": motion.rotations,
+        "root_positions": motion.root_positions,
+        "fps": motion.fps,
+        "name": np.array(motion.name),
+    }
     if motion.translations is not None:
         kept["translations"] = motion.translations
     np.savez(buffer, **kept)

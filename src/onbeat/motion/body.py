@@ -35,20 +35,20 @@ NEEDED = (
 _CENTRE_NAMES: Mapping[str, tuple[str, ...]] = {
     "hips": ("hips", "pelvis", "root", "hip", "waist"),
     "spine": ("lowerback", "spine", "spine0", "spine1", "abdomen", "torso", "lowback"),
-    "chest": ("thorax", "chest", "spine3", "spine2", "upperchest", "chest2", "spine1", "upperback", "spine"),
+    "chest": ("thorax", "upperchest", "chest2", "chest", "spine3", "spine2", "spine1", "upperback", "spine"),
     "neck": ("lowerneck", "neck", "neck1", "upperneck"),
     "head": ("head",),
 }
 _SIDE_NAMES: Mapping[str, tuple[str, ...]] = {
     "collar": ("clavicle", "collar", "shoulder", "inshoulder", "collarbone"),
-    "shoulder": ("humerus", "arm", "upperarm", "uparm", "shoulder"),
-    "elbow": ("radius", "forearm", "lowerarm", "elbow", "lowarm"),
+    "shoulder": ("humerus", "arm", "upperarm", "uparm", "uarm", "shldr", "shoulder"),
+    "elbow": ("radius", "forearm", "lowerarm", "elbow", "lowarm", "farm"),
     "wrist": ("wrist", "hand"),
-    "hand": ("fingers", "handend", "handsite", "fingerbase", "middle1", "handmiddle1", "hand"),
+    "hand": ("fingers", "middle1", "handmiddle1", "finger2", "handend", "handsite", "fingerbase", "hand"),
     "hip": ("femur", "upleg", "upperleg", "thigh", "hip", "leg"),
     "knee": ("tibia", "leg", "lowerleg", "shin", "calf", "knee", "lowleg"),
-    "ankle": ("foot", "ankle"),
-    "toe": ("toes", "toebase", "toe", "ball", "footend", "footsite"),
+    "ankle": ("ankle", "foot"),
+    "toe": ("toes", "toebase", "toe", "toe0", "ball", "footend", "footsite", "foot"),
 }
 # Tried in this order, so that "shoulder" is the collar where there is an "arm", else the shoulder itself.
 _SIDE_ORDER = ("ankle", "knee", "hip", "toe", "shoulder", "collar", "elbow", "wrist", "hand")
@@ -95,7 +95,7 @@ class Body:
     @classmethod
     def of(cls, skeleton: Skeleton) -> Body:
         """Find the roles by the joints' names; a ``BodyError`` lists what is missing."""
-        joints = _centre_joints(skeleton) | _side_joints(skeleton)
+        joints = _roles(skeleton)
         missing = [role for role in NEEDED if role not in joints]
         if missing:
             raise BodyError(
@@ -134,6 +134,35 @@ def chain_length(skeleton: Skeleton, top: int, bottom: int) -> float:
     return length
 
 
+def ancestors(skeleton: Skeleton, joint: int) -> list[int]:
+    """The joint, its parent and so on up to the root."""
+    line = [joint]
+    while skeleton.parents[line[-1]] >= 0:
+        line.append(int(skeleton.parents[line[-1]]))
+    return line
+
+
+def _fork(skeleton: Skeleton, a: int, b: int) -> int:
+    """The lowest joint above both ``a`` and ``b``."""
+    above = ancestors(skeleton, a)
+    return next(joint for joint in ancestors(skeleton, b) if joint in above)
+
+
+def _roles(skeleton: Skeleton) -> dict[str, int]:
+    """All roles found; names tell the limbs, the tree tells hips and chest: where the legs and the arms fork."""
+    sides = _side_joints(skeleton)
+    found = {role: joint for role, joint in _centre_joints(skeleton).items() if joint not in sides.values()}
+    for role, limb in (("hips", "hip"), ("chest", "shoulder")):
+        if f"left_{limb}" in sides and f"right_{limb}" in sides:
+            fork = _fork(skeleton, sides[f"left_{limb}"], sides[f"right_{limb}"])
+            if role == "hips" or fork not in (0, found.get("hips"), found.get("neck")):
+                found = {other: joint for other, joint in found.items() if joint != fork} | {role: fork}
+    if "spine" not in found and "chest" in found and "hips" in found:
+        between = [j for j in ancestors(skeleton, found["chest"]) if found["hips"] < j < found["chest"]]
+        found |= {"spine": between[-1]} if between else {}
+    return {role: joint for role in ROLES if (joint := (found | sides).get(role)) is not None}
+
+
 def _centre_joints(skeleton: Skeleton) -> dict[str, int]:
     plain = [_plain(name) for name in skeleton.names]
     found: dict[str, int] = {}
@@ -155,11 +184,19 @@ def _side_joints(skeleton: Skeleton) -> dict[str, int]:
                 if (side, name) in sided and sided.index((side, name)) not in found.values():
                     found[f"{side}_{role}"] = sided.index((side, name))
                     break
-        for role, below in (("hand", "wrist"), ("toe", "ankle")):
-            parent = found.get(f"{side}_{below}")
-            if f"{side}_{role}" not in found and parent is not None and skeleton.children[parent]:
-                found[f"{side}_{role}"] = skeleton.children[parent][0]
+        for role, above in (("hand", "wrist"), ("toe", "ankle")):
+            top = found.get(f"{side}_{above}")
+            if f"{side}_{role}" not in found and top is not None and (tip := _beyond(skeleton, top)) is not None:
+                found[f"{side}_{role}"] = tip
     return found
+
+
+def _beyond(skeleton: Skeleton, joint: int) -> int | None:
+    """The joint at the other end of the longest bone below a wrist or an ankle; None where there is no bone."""
+    below = [j for j in range(joint + 1, len(skeleton)) if joint in ancestors(skeleton, j)]
+    near = [j for j in below if chain_length(skeleton, joint, int(skeleton.parents[j])) < 1e-3]
+    longest = max(near, key=lambda j: float(skeleton.bone_lengths[j]), default=None)
+    return longest if longest is not None and skeleton.bone_lengths[longest] > 1e-3 else None
 
 
 def body_frames(motion: Motion, body: Body | None = None) -> tuple[Rotations, Positions]:
