@@ -9,7 +9,7 @@ from onbeat._shapes import Float32
 from onbeat.examples.arrangement import Part
 from onbeat.examples.harmony import Chord
 from onbeat.examples.mixing import Desk
-from onbeat.examples.score import Score
+from onbeat.examples.score import DYNAMICS, Score
 from onbeat.examples.synth import RATE, decay, hertz, oscillate, pluck, shape, swell, vibrato, wave_table
 from onbeat.examples.tune import Note
 
@@ -64,11 +64,12 @@ def _guitar_strings(rng: np.random.Generator) -> dict[int, Float32]:
 
 def play_guitar(desk: Desk, score: Score, rng: np.random.Generator) -> None:
     """Strum the chords, strings a few milliseconds apart, damped where the pattern says so."""
-    desk.track("guitar", 0.34, -0.45, 0.14)
+    desk.track("guitar", 0.28, -0.45, 0.14)
     strings = _guitar_strings(rng)
     for part in score.parts:
         for bar in range(part.first, part.first + part.bars):
             for beat, strength, length, way in _STRUMS[score.meter][part.name]:
+                strength *= DYNAMICS[part.name]
                 _strum(desk, score, strings, bar * score.meter + beat, length, strength, way == "up", rng)
     _strum(desk, score, strings, len(score.chords) - 1, 4.0, 0.9, False, rng)
 
@@ -84,7 +85,7 @@ def _strum(
     rng: np.random.Generator,
 ) -> None:
     pitches = voicing(score.chord_at(beat), 49, 5)
-    start = score.swung(beat)
+    start = score.swung(beat) + float(rng.normal(0.0, 0.002))
     length = int((float(score.grid.time(beat + beats)) - start) * RATE)
     for order, pitch in enumerate(pitches[:1:-1] if up else pitches):
         sound = strings[pitch][:length]
@@ -131,7 +132,7 @@ def _flute(pitch: float, seconds: float, breath: Float32) -> Float32:
     """A wooden flute: few harmonics, a breath of noise at the start, a slow vibrato."""
     length = int(seconds * RATE)
     tone = oscillate(wave_table(hertz(pitch), 2.3), hertz(pitch), length, vibrato(length, 4.8, 11.0, 0.2))
-    air = breath[:length] * (0.05 + 0.2 * decay(length, 0.03))
+    air = np.resize(breath, length) * (0.05 + 0.2 * decay(length, 0.03))
     return shape(tone + air, swell(length, 0.045, 0.08))
 
 
@@ -143,7 +144,7 @@ def _breath(rng: np.random.Generator) -> Float32:
 
 def play_tune(desk: Desk, score: Score, rng: np.random.Generator) -> None:
     """Sing the tune: in the verse fiddle and flute take turns, in the chorus all play, the flute a third above."""
-    desk.track("fiddle", 0.2, 0.15, 0.3)
+    desk.track("fiddle", 0.23, 0.15, 0.3)
     desk.track("flute", 0.17, -0.25, 0.35)
     desk.track("mandolin", 0.6, 0.55, 0.2)
     breath = _breath(rng)
@@ -177,11 +178,19 @@ def _sing(
     if chorus or call:
         desk.play("fiddle", _fiddle(pitch, seconds), start - 0.008, accent)
     if chorus:
-        desk.play("flute", _flute(key.pitch(note.step + 2), seconds, breath), start - 0.01, 0.75 * accent)
+        desk.play("flute", _flute(key.pitch(_above(score, note)), seconds, breath), start - 0.01, 0.75 * accent)
         desk.play("mandolin", strings[pitch], start, 0.8 * accent)
     elif not call:
         desk.play("flute", _flute(pitch + 12, seconds, breath), start - 0.01, 0.85 * accent)
         desk.play("mandolin", strings[pitch], start, 0.5 * accent)
+
+
+def _above(score: Score, note: Note) -> int:
+    """The step of a second voice: the next tone of the chord, or a third above a passing tone."""
+    key, tones = score.progressions.key, score.chord_at(note.beat).tones
+    if key.pitch(note.step) % 12 not in tones:
+        return note.step + 2
+    return next(step for step in range(note.step + 2, note.step + 5) if key.pitch(step) % 12 in tones)
 
 
 def _play_arpeggios(desk: Desk, score: Score, strings: dict[int, Float32], rng: np.random.Generator) -> None:

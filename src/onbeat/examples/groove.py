@@ -8,7 +8,7 @@ from onbeat._shapes import Float32
 from onbeat.examples.arrangement import Part
 from onbeat.examples.drums import drum_kit
 from onbeat.examples.mixing import Desk
-from onbeat.examples.score import Score
+from onbeat.examples.score import DYNAMICS, Score
 from onbeat.examples.synth import RATE, decay, hertz, oscillate, shape, swell, wave_table
 
 # Patterns of a bar by meter and section: drum → (beat, strength)…; kicks stand on whole beats only.
@@ -66,10 +66,10 @@ _DRUMS = {  # level, pan, room
     "kick": (0.85, 0.0, 0.02),
     "snare": (0.95, 0.08, 0.16),
     "frame drum": (0.65, -0.4, 0.2),
-    "hat": (0.75, 0.35, 0.05),
-    "open hat": (0.6, 0.35, 0.08),
+    "hat": (1.0, 0.35, 0.05),
+    "open hat": (0.8, 0.35, 0.08),
     "shaker": (1.0, -0.3, 0.1),
-    "tambourine": (0.75, 0.5, 0.15),
+    "tambourine": (0.95, 0.5, 0.15),
     "clap": (0.8, -0.12, 0.25),
     "tom": (0.5, -0.25, 0.18),
     "cymbal": (0.55, 0.2, 0.2),
@@ -121,7 +121,7 @@ def _fill(desk: Desk, score: Score, bar: int, kit: dict[str, Float32], rng: np.r
 def _bass_note(pitch: float, seconds: float) -> Float32:
     """A round bass string: a bright tone that fades into a dull one, over a sine."""
     length = int(seconds * RATE)
-    bright = oscillate(wave_table(hertz(pitch), 1.0), hertz(pitch), length) * decay(length, 0.07)
+    bright = oscillate(wave_table(hertz(pitch), 1.0), hertz(pitch), length) * decay(length, 0.1)
     dull = oscillate(wave_table(hertz(pitch), 2.2), hertz(pitch), length)
     return shape(0.45 * bright + 0.8 * dull, decay(length, 0.6), swell(length, 0.004, 0.05))
 
@@ -170,7 +170,8 @@ def play_bass(desk: Desk, score: Score, rng: np.random.Generator) -> None:
         line = lines[choice % len(lines)]
         for bar in range(part.first, part.first + part.bars):
             for beat, length, what in line:
-                _play_bass_note(desk, score, bar * score.meter + beat, length, what, rng)
+                strength = DYNAMICS[part.name] * (0.92 + 0.08 * float(rng.random()))
+                _play_bass_note(desk, score, bar * score.meter + beat, length, what, strength)
     last = len(score.chords) - 1
     desk.play("bass", _bass_note(_low(score.chords[-1].root), 2.4), score.swung(last), 0.9)
 
@@ -180,7 +181,7 @@ def _low(root: int) -> int:
     return 28 + (root - 28) % 12
 
 
-def _play_bass_note(desk: Desk, score: Score, beat: float, length: float, what: str, rng: np.random.Generator) -> None:
+def _play_bass_note(desk: Desk, score: Score, beat: float, length: float, what: str, strength: float) -> None:
     chord = score.chord_at(beat)
     pitch = _low(chord.root)
     if what == "fifth":
@@ -190,7 +191,7 @@ def _play_bass_note(desk: Desk, score: Score, beat: float, length: float, what: 
     elif what == "lead":
         pitch = _lead(score, beat)
     seconds = float(score.grid.time(beat + length) - score.grid.time(beat))
-    desk.play("bass", _bass_note(pitch, seconds), score.swung(beat), 0.9 + 0.1 * float(rng.random()))
+    desk.play("bass", _bass_note(pitch, seconds), score.swung(beat), strength)
 
 
 def _lead(score: Score, beat: float) -> int:

@@ -9,7 +9,7 @@ from scipy.signal import butter, oaconvolve, sosfilt
 from onbeat._shapes import Float32
 from onbeat.examples.synth import RATE
 
-LOUDNESS = -14.5  # root mean square of the whole song [dB full scale]
+LOUDNESS = -16.3  # root mean square of the whole song [dB full scale]; near −14 LUFS for this band
 CEILING = 0.95
 
 

@@ -11,6 +11,8 @@ from onbeat.examples.harmony import Chord, Progressions
 from onbeat.examples.tune import Composer, Note, choose_rhythm
 
 SWING = 0.54  # where the second eighth of a beat falls, 0.5 is straight
+DYNAMICS = {"intro": 0.72, "verse": 0.85, "chorus": 1.0, "break": 0.5, "outro": 0.75}
+"""How strongly bass and guitar play in each section."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +50,6 @@ class Score:
         return self.chords[min(int(beat), len(self.chords) - 1)]
 
 
-def _eight_bars(progressions: Progressions, name: str, meter: int) -> list[Chord]:
-    return progressions.beats(name, 8, meter)
-
-
 def write_score(grid: Grid, parts: tuple[Part, ...], progressions: Progressions, rng: np.random.Generator) -> Score:
     """Write chords and tunes: one tune for all verses, a higher one for all choruses, a farewell at the end."""
     meter = grid.meter
@@ -61,9 +59,22 @@ def write_score(grid: Grid, parts: tuple[Part, ...], progressions: Progressions,
     for name, centre in (("verse", 2.0), ("chorus", 4.5)):
         composer = Composer(progressions.key, meter, centre)
         rhythm = choose_rhythm(rng, meter)
-        tunes[name] = composer.compose(_eight_bars(progressions, name, meter), rhythm, rng, name == "chorus")
-    placed = tuple(_place(tunes[part.name], part, meter) if part.name in tunes else () for part in parts)
-    return Score(grid, parts, progressions, tuple(chords), placed)
+        tunes[name] = composer.compose(progressions.beats(name, 8, meter), rhythm, rng, name == "chorus")
+    placed: list[tuple[Note, ...]] = []
+    for part, after in zip(parts, [*parts[1:], None], strict=True):
+        notes = _place(tunes[part.name], part, meter) if part.name in tunes else ()
+        sings_on = after is not None and after.name in tunes
+        placed.append(notes if sings_on else _rest(notes, (part.first + part.bars) * meter))
+    return Score(grid, parts, progressions, tuple(chords), tuple(placed))
+
+
+def _rest(notes: tuple[Note, ...], end: int) -> tuple[Note, ...]:
+    """Hold the cadence note instead of the pick-up to a tune that does not follow."""
+    for index in range(len(notes) - 1, 0, -1):
+        before = notes[index - 1]
+        if notes[index].beat > before.beat + before.beats:
+            return (*notes[: index - 1], before._replace(beats=end - 0.5 - before.beat))
+    return notes
 
 
 def _place(tune: list[Note], part: Part, meter: int) -> tuple[Note, ...]:

@@ -135,10 +135,12 @@ class Composer:
         return _note_costs(slots, tones, self.meter), tones
 
     def _cadence_note(self, slots: list[tuple[float, float]]) -> int:
-        """The longest note of the last bar: where the phrase comes to rest."""
-        bar = int(slots[-1][0] // self.meter)
-        inside = [index for index, (beat, _) in enumerate(slots) if beat >= bar * self.meter]
-        return max(inside, key=lambda index: slots[index][1])
+        """The note before the rest: where the phrase comes to rest."""
+        return next(
+            index
+            for index, (beat, length) in enumerate(slots)
+            if index == len(slots) - 1 or slots[index + 1][0] > beat + length
+        )
 
     def _contour(
         self, slots: list[tuple[float, float]], tune: list[list[Note]], chords: list[Chord]
