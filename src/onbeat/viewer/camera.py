@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
@@ -106,16 +106,16 @@ def follow(
     ground: float = 0.0,
     *,
     size: Size = (1280, 720),
-    smoothing: float = 0.7,
+    smoothing: float = 0.5,
     side: float = 0.35,
     elevation: float = 0.2,
-    margin: float = 1.22,
+    margin: float = 1.15,
     shift: float = 0.0,
 ) -> CameraPath:
     """A camera that follows the dancer and keeps all of the figure in view in every frame.
 
     The target is the figure's middle, low-passed with a Gaussian of ``smoothing`` seconds; its height is constant.
-    The distance is what the figure needs, its largest within 4 ``smoothing`` seconds, low-passed over no more
+    The distance is what the figure needs, its largest within 2.5 ``smoothing`` seconds, low-passed over no more
     than that: so it is never less than needed.
 
     Parameters
@@ -132,35 +132,28 @@ def follow(
     middle = gaussian_filter1d((low + high)[:, :2] / 2, sigma, axis=0, mode="nearest")
     tall = float(np.percentile(high[:, 2], 95)) - ground
     targets = np.column_stack((middle, np.full(len(motion), ground + 0.5 * tall)))
-    azimuth = _front(motion) + side
-    view_angle = 0.5
-    usable = 1 - 2 * abs(shift)
-    needed = _needed(low, high, targets, azimuth, elevation, view_angle, size[0] / size[1], usable) * margin
-    window = int(round(4 * sigma))
+    still = CameraPath(targets, np.zeros(len(motion)), _front(motion) + side, elevation, shift=shift)
+    needed = _needed(motion.positions, figure, still, size[0] / size[1]) * margin
+    window = int(round(2.5 * sigma))
     widest = maximum_filter1d(needed, 2 * window + 1, mode="nearest")
-    distances = gaussian_filter1d(widest, sigma, mode="nearest", radius=window)
-    return CameraPath(targets, distances, azimuth, elevation, view_angle, shift)
+    return replace(still, distances=gaussian_filter1d(widest, sigma, mode="nearest", radius=window))
 
 
-def _needed(
-    low: Positions,
-    high: Positions,
-    targets: Positions,
-    azimuth: float,
-    elevation: float,
-    view_angle: float,
-    aspect: float,
-    usable: float,
-) -> Array:
-    """(F,) metres: the distance at which the box around the figure just fits the picture."""
-    towards = _direction(azimuth, elevation)
-    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
+def _needed(positions: Positions, figure: Figure, path: CameraPath, aspect: float) -> Array:
+    """(F,) metres: the distance at which the figure just fits the picture, from a few hundred frames at a time."""
+    towards = _direction(path.azimuth, path.elevation)
+    right = np.array([-np.sin(path.azimuth), np.cos(path.azimuth), 0.0])
     up = np.cross(towards, right)
-    corners = np.stack([np.where([i & 1, i & 2, i & 4], high, low) for i in range(8)], axis=1) - targets[:, None]
-    slope = np.tan(view_angle / 2)
-    vertical = np.abs(corners @ up) / (slope * usable)
-    sideways = np.abs(corners @ right) / (slope * aspect)
-    return (np.maximum(vertical, sideways) + corners @ towards).max(1)
+    slope = np.tan(path.view_angle / 2)
+    usable = 1 - 2 * abs(path.shift)
+    distances = np.empty(len(positions))
+    for first in range(0, len(positions), 256):
+        part = slice(first, first + 256)
+        ends = figure.ends(positions[part]) - path.targets[part, None, None]
+        vertical = (np.abs(ends @ up) + figure.radii) / (slope * usable)
+        sideways = (np.abs(ends @ right) + figure.radii) / (slope * aspect)
+        distances[part] = (np.maximum(vertical, sideways) + ends @ towards).max((1, 2))
+    return distances
 
 
 def _front(motion: Motion) -> float:

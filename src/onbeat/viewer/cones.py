@@ -102,6 +102,19 @@ def outward(cone: Array, px: float, py: float, pz: float) -> tuple[float, float,
 
 
 @numba.njit(cache=True)
+def gap(cone: Array, px: float, py: float, pz: float, most: float) -> float:
+    """About the distance from a point to a cone's skin (the taper's slant is left out), or ``most`` if that is less."""
+    wx, wy, wz = px - cone[AX], py - cone[AY], pz - cone[AZ]
+    along = min(max(wx * cone[NX] + wy * cone[NY] + wz * cone[NZ], 0.0), cone[LENGTH])
+    wx -= along * cone[NX]
+    wy -= along * cone[NY]
+    wz -= along * cone[NZ]
+    square = wx * wx + wy * wy + wz * wz
+    radius = cone[RADIUS] - cone[TAPER] * along
+    return most if square >= (radius + most) ** 2 else np.sqrt(square) - radius
+
+
+@numba.njit(cache=True)
 def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: int) -> Array:
     """(N, 4) first and past-the-last column and row that each cone may cover; empty where it is not seen."""
     boxes = np.zeros((len(cones), 4), np.int64)
@@ -132,7 +145,13 @@ def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: 
 
 @numba.njit(cache=True)
 def cast(
-    cones: Array, boxes: Array, focal: float, cx: float, cy: float, origin: tuple[int, int], shape: tuple[int, int],
+    cones: Array,
+    boxes: Array,
+    focal: float,
+    cx: float,
+    cy: float,
+    origin: tuple[int, int],
+    shape: tuple[int, int],
     fine: int,
 ) -> tuple[Array, Array]:
     """Depth and the number of the nearest cone (-1: none) at ``fine`` × ``fine`` points of each pixel.

@@ -17,6 +17,7 @@ Colour = tuple[int, int, int]
 DRESSED: Mapping[str, Colour] = {
     "head": (240, 190, 152),
     "torso": (238, 92, 66),
+    "hips": (48, 72, 112),
     "left_arm": (238, 92, 66),
     "right_arm": (238, 92, 66),
     "left_hand": (240, 190, 152),

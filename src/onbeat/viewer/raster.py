@@ -10,11 +10,14 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from onbeat._shapes import Array, Positions
+from onbeat._shapes import Array, Bools, Ints, Positions
 from onbeat.viewer.camera import Camera, Size
-from onbeat.viewer.cones import cast, cones_from, outward, spans
+from onbeat.viewer.cones import AX, AY, AZ, LENGTH, NX, NY, NZ, RADIUS, RADIUS_B, cast, cones_from, gap, outward, spans
 from onbeat.viewer.figure import Figure
 from onbeat.viewer.stage import TO_LINEAR, TO_SRGB, Stage, linear, paint_backdrop, shadow_map
+
+BLEND, HOLLOW, SHADE = 0.05, 0.1, 0.12
+"""Metres: how far normals run together, and how far off the skin ambient and key light look for what hides them."""
 
 
 def render_frame(
@@ -57,15 +60,33 @@ def render_frame(
 
 
 @numba.njit(cache=True)
-def _skin(cones: Array, adjacent: Array, which: int, px: float, py: float, pz: float) -> tuple[float, float, float]:
-    """The normal at a point of cone ``which``, run together with those of its neighbours within a few centimetres."""
-    blend = 0.035
-    sx, sy, sz = 0.0, 0.0, 0.0
+def _near(cones: Array, px: float, py: float, pz: float, reach: float, found: Ints) -> int:
+    """Put the numbers of all cones whose ball lies within ``reach`` metres of a point in ``found``; how many."""
+    count = 0
     for i in range(len(cones)):
-        if adjacent[which, i]:
+        cone = cones[i]
+        half = 0.5 * cone[LENGTH]
+        x = px - cone[AX] - half * cone[NX]
+        y = py - cone[AY] - half * cone[NY]
+        z = pz - cone[AZ] - half * cone[NZ]
+        far = half + max(cone[RADIUS], cone[RADIUS_B]) + reach
+        if x * x + y * y + z * z < far * far:
+            found[count] = i
+            count += 1
+    return count
+
+
+@numba.njit(cache=True)
+def _skin(
+    cones: Array, adjacent: Bools, near: Ints, which: int, px: float, py: float, pz: float
+) -> tuple[float, float, float]:
+    """The normal at a point of cone ``which``, run together with those of its neighbours within a few centimetres."""
+    sx, sy, sz = 0.0, 0.0, 0.0
+    for i in near:
+        if adjacent[which, i] and gap(cones[i], px, py, pz, 1.2 * BLEND) < 1.2 * BLEND:
             off, nx, ny, nz = outward(cones[i], px, py, pz)
-            if off < blend:
-                weight = (1.0 - max(off, 0.0) / blend) ** 2
+            if off < BLEND:
+                weight = (1.0 - max(off, 0.0) / BLEND) ** 2
                 sx += weight * nx
                 sy += weight * ny
                 sz += weight * nz
@@ -77,48 +98,51 @@ def _skin(cones: Array, adjacent: Array, which: int, px: float, py: float, pz: f
 
 
 @numba.njit(cache=True)
-def _open(cones: Array, px: float, py: float, pz: float, reach: float) -> float:
+def _open(cones: Array, near: Ints, px: float, py: float, pz: float, reach: float) -> float:
     """0…1: how far a point ``reach`` metres off the skin is from all of the body; what is left of the light there."""
     nearest = reach
-    for i in range(len(cones)):
-        cone = cones[i]
-        wx, wy, wz = px - cone[0], py - cone[1], pz - cone[2]
-        if wx * wx + wy * wy + wz * wz > (cone[6] + cone[7] + cone[13] + reach) ** 2:
-            continue
-        off, _, _, _ = outward(cone, px, py, pz)
-        nearest = min(nearest, off)
+    for i in near:
+        nearest = gap(cones[i], px, py, pz, nearest)
     return max(nearest, 0.0) / reach
 
 
 @numba.njit(cache=True)
 def _light_on(
-    cones: Array, adjacent: Array, which: int, x: float, y: float, depth: float, axes: Array, to: Array
+    cones: Array, adjacent: Bools, found: Ints, which: int, px: float, py: float, pz: float, axes: Array, to: Array
 ) -> tuple[float, float, float]:
     """What a point of the body takes of the key light, of the sky and floor around, and of the rim's glow."""
-    px, py, pz = x * depth, y * depth, depth
-    nx, ny, nz = _skin(cones, adjacent, which, px, py, pz)
+    near = found[: _near(cones, px, py, pz, SHADE + SHADE, found)]
+    nx, ny, nz = _skin(cones, adjacent, near, which, px, py, pz)
     up = axes[0, 2] * nx + axes[1, 2] * ny + axes[2, 2] * nz
-    key = nx * to[0] + ny * to[1] + nz * to[2]
-    key = max((key + 0.15) / 1.15, 0.0)
-    reach = 0.11
-    near = _open(cones, px + reach * nx, py + reach * ny, pz + reach * nz, reach)
-    near = 0.35 + 0.65 * near
-    reach = 0.16
-    lit = _open(cones, px + reach * to[0], py + reach * to[1], pz + reach * to[2], reach)
-    around = (0.5 + 0.5 * up) * near
+    key = max((nx * to[0] + ny * to[1] + nz * to[2] + 0.15) / 1.15, 0.0)
+    free = 0.35 + 0.65 * _open(cones, near, px + HOLLOW * nx, py + HOLLOW * ny, pz + HOLLOW * nz, HOLLOW)
+    if key > 0.0:
+        key *= 0.25 + 0.75 * _open(cones, near, px + SHADE * to[0], py + SHADE * to[1], pz + SHADE * to[2], SHADE)
     facing = max(-(nx * px + ny * py + nz * pz) / np.sqrt(px * px + py * py + pz * pz), 0.0)
-    rim = (1.0 - facing) ** 4 * near
-    return key * (0.25 + 0.75 * lit), around + 0.22 * near, rim
+    return key, (0.72 + 0.5 * up) * free, (1.0 - facing) ** 4 * free
 
 
 @numba.njit(cache=True)
 def _shade(
-    picture: np.ndarray, depth: Array, nearest: Array, cones: Array, adjacent: Array, colours: Array, axes: Array,
-    to: Array, focal: float, cx: float, cy: float, origin: tuple[int, int], fine: int, to_srgb: np.ndarray,
+    picture: np.ndarray,
+    depth: Array,
+    nearest: Array,
+    cones: Array,
+    adjacent: Bools,
+    colours: Array,
+    axes: Array,
+    to: Array,
+    focal: float,
+    cx: float,
+    cy: float,
+    origin: tuple[int, int],
+    fine: int,
+    to_srgb: np.ndarray,
     to_linear: Array,
 ) -> None:
     """Colour the figure's pixels; a pixel that several capsules share is their mean, by the points each has."""
     share = 1.0 / (fine * fine)
+    found = np.empty(len(cones), np.int64)
     for row in range(depth.shape[0] // fine):
         for column in range(depth.shape[1] // fine):
             red, green, blue, clear = 0.0, 0.0, 0.0, 1.0
@@ -132,11 +156,12 @@ def _shade(
                 if which != last:
                     x = (origin[0] + (j + 0.5) / fine - cx) / focal
                     y = (cy - origin[1] - (i + 0.5) / fine) / focal
-                    key, around, rim = _light_on(cones, adjacent, which, x, y, depth[i, j], axes, to)
+                    z = depth[i, j]
+                    key, around, rim = _light_on(cones, adjacent, found, which, x * z, y * z, z, axes, to)
                     last = which
-                    r = colours[which, 0] * (0.86 * key + 0.46 * around) + 0.10 * rim
-                    g = colours[which, 1] * (0.82 * key + 0.49 * around) + 0.11 * rim
-                    b = colours[which, 2] * (0.76 * key + 0.54 * around) + 0.13 * rim
+                    r = colours[which, 0] * (0.86 * key + 0.46 * around + 0.3 * rim)
+                    g = colours[which, 1] * (0.82 * key + 0.49 * around + 0.3 * rim)
+                    b = colours[which, 2] * (0.76 * key + 0.54 * around + 0.3 * rim)
                 red += share * r
                 green += share * g
                 blue += share * b

@@ -19,6 +19,7 @@ ADULT_LEG = 0.82
 GROUPS = (
     "head",
     "torso",
+    "hips",
     *(f"{side}_{part}" for side in ("left", "right") for part in ("arm", "hand", "leg", "foot")),
 )
 """The colour groups."""
@@ -70,16 +71,18 @@ def _torso(body: Body) -> list[Capsule]:
     left_hip, right_hip = body["left_hip"], body["right_hip"]
     top = body.joints.get("neck", chest)
     made = [
-        Capsule(left_hip, right_hip, 0.092, 0.092, "torso"),
-        Capsule(hips, chest, 0.1, 0.1, "torso"),
-        Capsule(left_shoulder, right_shoulder, 0.058, 0.058, "torso", 0.04, 0.96),
+        Capsule(left_hip, right_hip, 0.094, 0.094, "hips"),
+        Capsule(hips, chest, 0.104, 0.1, "hips", -0.05, 0.14),
+        Capsule(hips, chest, 0.098, 0.108, "torso"),
+        Capsule(left_shoulder, right_shoulder, 0.05, 0.05, "torso", 0.06, 0.94),
     ]
     if top != chest:
-        made.append(Capsule(chest, top, 0.1, 0.06, "torso"))
+        made.append(Capsule(chest, top, 0.105, 0.06, "torso"))
     for shoulder, hip in ((left_shoulder, left_hip), (right_shoulder, right_hip)):
-        # From the waist out to the shoulder and from the chest out to the hip: a narrow waist, a broad chest.
-        made.append(Capsule(hips, shoulder, 0.09, 0.07, "torso", 0.3, 0.9))
-        made.append(Capsule(chest, hip, 0.09, 0.088, "torso", 0.3, 0.97))
+        # Out from the waist and the chest to the shoulder, and to the hip: a narrow waist, a broad chest.
+        made.append(Capsule(hips, shoulder, 0.088, 0.07, "torso", 0.3, 0.9))
+        made.append(Capsule(chest, shoulder, 0.095, 0.062, "torso", 0.1, 0.85))
+        made.append(Capsule(chest, hip, 0.09, 0.088, "torso", 0.3, 0.62))
     return made
 
 
@@ -88,31 +91,31 @@ def _head(body: Body, size: float) -> list[Capsule]:
     head = body.joints.get("head", base)
     if head == base:
         return [_skull(body["hips"], base, 0.28 * size, _length(body, body["hips"], base), size)]
-    neck = Capsule(base, head, 0.055, 0.05, "torso")
+    neck = [Capsule(base, head, 0.09, 0.056, "torso", 0.0, 0.4), Capsule(base, head, 0.055, 0.05, "head", 0.3, 1.0)]
     tips = [child for child in body.skeleton.children[head] if body.skeleton.bone_lengths[child] > 0.04 * size]
     if tips:
         above = float(body.skeleton.bone_lengths[tips[0]])
         # The crown is at the tip; where a file's tip is far off, the skull stays near its joint.
-        centre = min(max(above - 0.115 * size, -0.02 * size), 0.11 * size)
+        centre = min(max(above - 0.11 * size, -0.02 * size), 0.11 * size)
         skull = Capsule(
-            head, tips[0], 0.092, 0.1, "head", (centre - 0.025 * size) / above, (centre + 0.02 * size) / above
+            head, tips[0], 0.084, 0.095, "head", (centre - 0.025 * size) / above, (centre + 0.02 * size) / above
         )
-        return [neck, skull]
-    return [neck, _skull(base, head, 0.085 * size, _length(body, base, head), size)]
+        return [*neck, skull]
+    return [*neck, _skull(base, head, 0.085 * size, _length(body, base, head), size)]
 
 
 def _skull(base: int, head: int, above: float, length: float, size: float) -> Capsule:
     """A skull whose centre is ``above`` metres past ``head`` on the line from ``base``, ``length`` metres away."""
     length = max(length, 0.02 * size)
     return Capsule(
-        base, head, 0.092, 0.1, "head", 1 + (above - 0.025 * size) / length, 1 + (above + 0.02 * size) / length
+        base, head, 0.084, 0.095, "head", 1 + (above - 0.025 * size) / length, 1 + (above + 0.02 * size) / length
     )
 
 
 def _arm(body: Body, side: str) -> list[Capsule]:
     shoulder, elbow, wrist = (body[f"{side}_{role}"] for role in ("shoulder", "elbow", "wrist"))
     return [
-        Capsule(shoulder, elbow, 0.055, 0.04, f"{side}_arm"),
+        Capsule(shoulder, elbow, 0.053, 0.04, f"{side}_arm"),
         Capsule(elbow, wrist, 0.041, 0.028, f"{side}_arm"),
     ]
 
@@ -142,10 +145,11 @@ def _leg(body: Body, side: str, size: float) -> list[Capsule]:
     hip, knee, ankle = (body[f"{side}_{role}"] for role in ("hip", "knee", "ankle"))
     shin = max(_length(body, knee, ankle), 0.05 * size)
     return [
-        Capsule(hip, knee, 0.086, 0.054, f"{side}_leg"),
-        Capsule(knee, ankle, 0.056, 0.038, f"{side}_leg"),
+        Capsule(hip, knee, 0.09, 0.056, f"{side}_leg"),
+        Capsule(knee, ankle, 0.055, 0.058, f"{side}_leg", 0.0, 0.25),
+        Capsule(knee, ankle, 0.058, 0.038, f"{side}_leg", 0.25, 1.0),
         # The heel lies below the ankle, on the shin's line.
-        Capsule(knee, ankle, 0.038, 0.036, f"{side}_foot", 1.0, 1.0 + 0.03 * size / shin),
+        Capsule(knee, ankle, 0.041, 0.04, f"{side}_foot", 1.0, 1.0 + 0.03 * size / shin),
     ]
 
 
@@ -154,10 +158,10 @@ def _foot(body: Body, side: str, size: float) -> list[Capsule]:
     if toe is None:
         return []
     group, ankle = f"{side}_foot", body[f"{side}_ankle"]
-    made = [Capsule(ankle, toe, 0.04, 0.03, group)]
+    made = [Capsule(ankle, toe, 0.043, 0.036, group)]
     ends = [child for child in body.skeleton.children[toe] if body.skeleton.bone_lengths[child] > 0.01 * size]
     if ends:
-        made.append(Capsule(toe, ends[0], 0.03, 0.022, group))
+        made.append(Capsule(toe, ends[0], 0.036, 0.027, group))
     return made
 
 

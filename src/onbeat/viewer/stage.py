@@ -32,7 +32,7 @@ class Stage:
     fine: int = 2
     floor: tuple[int, int, int] = (226, 224, 220)
     tile: tuple[int, int, int] = (215, 213, 210)
-    backdrop: tuple[int, int, int] = (196, 209, 222)
+    backdrop: tuple[int, int, int] = (190, 207, 224)
     horizon: tuple[int, int, int] = (236, 239, 241)
 
     @classmethod
@@ -159,8 +159,17 @@ def _missing(shadow: Array, column: float, row: float) -> float:
 
 @numba.njit(cache=True)
 def _paint(
-    picture: np.ndarray, eye: Array, middle: Array, axes: Array, focal: float, cx: float, cy: float, colours: Array,
-    shadow: Array, origin: tuple[float, float], to_srgb: np.ndarray,
+    picture: np.ndarray,
+    eye: Array,
+    middle: Array,
+    axes: Array,
+    focal: float,
+    cx: float,
+    cy: float,
+    colours: Array,
+    shadow: Array,
+    origin: tuple[float, float],
+    to_srgb: np.ndarray,
 ) -> None:
     height, width = picture.shape[:2]
     floor, tile, backdrop, horizon = colours[0], colours[1], colours[2], colours[3]
@@ -168,7 +177,7 @@ def _paint(
         y = (cy - row - 0.5) / focal
         rise = axes[1, 2] * y + axes[2, 2]
         if rise > -0.004:
-            part = min(max(rise / 0.35, 0.0), 1.0)
+            part = min(max(rise / 0.22, 0.0), 1.0)
             for channel in range(3):
                 light = horizon[channel] + (backdrop[channel] - horizon[channel]) * part
                 picture[row, :, channel] = to_srgb[int(light * 4096)]
@@ -186,7 +195,7 @@ def _paint(
             far = ((gx - middle[0]) ** 2 + (gy - middle[1]) ** 2) / 30.0
             fade = 1.0 / (1.0 + far * far)
             mix = 0.5 + 0.5 * _tiles(gx, wide_x) * _tiles(gy, wide_y)
-            dark = 1.0 - 0.62 * _missing(shadow, (gx - origin[0]) / CELL, (gy - origin[1]) / CELL)
+            dark = 1.0 - 0.66 * _missing(shadow, (gx - origin[0]) / CELL, (gy - origin[1]) / CELL)
             for channel in range(3):
                 light = (floor[channel] + (tile[channel] - floor[channel]) * mix) * dark
                 light = horizon[channel] + (light - horizon[channel]) * fade

@@ -1,0 +1,90 @@
+"""The strip below the dancer: the song's waveform, its beats, the dance's stops, and a play head."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from onbeat._shapes import Array, Float32, Times
+from onbeat.music.song import Song
+
+PAPER, INK, PLAYED, BEAT, DOWNBEAT, STOP, HEAD = (
+    np.array(c, np.uint8)
+    for c in (
+        (250, 250, 249),
+        (182, 192, 204),
+        (72, 104, 148),
+        (206, 212, 219),
+        (150, 160, 172),
+        (238, 92, 66),
+        (40, 46, 56),
+    )
+)
+
+
+def loudness(samples: Float32, columns: int, duration: float, rate: float) -> Array:
+    """(columns,) 0…1: the root mean square of each column's share of ``duration`` seconds, over the loudest."""
+    edges = np.round(np.linspace(0.0, duration, columns + 1) * rate).astype(np.int64)
+    level = np.zeros(columns)
+    for column in range(columns):
+        part = samples[edges[column] : max(edges[column + 1], edges[column] + 1)]
+        level[column] = float(np.sqrt(np.mean(np.square(part, dtype=np.float64)))) if len(part) else 0.0
+    return level / max(float(level.max()), 1e-9)
+
+
+@dataclass(frozen=True, eq=False)
+class Strip:
+    """The strip before (``coming``) and after (``played``) the play head has passed, (H, W, 3) uint8."""
+
+    coming: np.ndarray
+    played: np.ndarray
+    duration: float
+
+    @classmethod
+    def of(
+        cls, song: Song | None, level: Array | None, stops: Times, duration: float, height: int, width: int
+    ) -> Strip:
+        """Draw a strip for ``duration`` seconds; what is not known (song, level) is left out."""
+        pictures = [_draw(song, level, stops, duration, height, width, ink) for ink in (INK, PLAYED)]
+        return cls(pictures[0], pictures[1], duration)
+
+    def draw(self, picture: np.ndarray, time: float) -> None:
+        """Put the strip at the foot of a picture, the play head at ``time`` seconds."""
+        height, width = self.coming.shape[:2]
+        foot = picture[-height:]
+        at = int(np.clip(time / self.duration * width, 0, width - 1))
+        foot[:] = self.coming
+        foot[:, :at] = self.played[:, :at]
+        thick = max(1, height // 30)
+        foot[:, max(at - thick // 2, 0) : at + thick - thick // 2] = HEAD
+
+
+def _draw(
+    song: Song | None, level: Array | None, stops: Times, duration: float, height: int, width: int, ink: Array
+) -> np.ndarray:
+    picture = np.empty((height, width, 3), np.uint8)
+    picture[:] = PAPER
+    middle, half = 0.5 * (height - 1), 0.36 * height
+    if song is not None:
+        for times, colour, long in ((song.beats, BEAT, 0.42), (song.downbeats, DOWNBEAT, 0.47)):
+            reach = max(int(long * height), 1)
+            _ticks(picture, times, duration, int(middle) - reach, int(middle) + reach + 1, colour, 1)
+    if level is not None:
+        off = np.abs(np.arange(height) - middle)[:, None]
+        cover = np.clip(level * half - off + 0.8, 0.0, 1.0)[..., None]
+        picture[:] = np.round(picture * (1 - cover) + ink * cover).astype(np.uint8)
+    tall = max(2, height // 7)
+    _ticks(picture, stops, duration, height - tall, height, STOP, max(1, height // 24))
+    return picture
+
+
+def _ticks(
+    picture: np.ndarray, times: Times, duration: float, top: int, bottom: int, colour: Array, thick: int
+) -> None:
+    """Upright marks at times."""
+    width = picture.shape[1]
+    for time in np.asarray(times).tolist():
+        if 0 <= time < duration:
+            left = int(time / duration * width) - thick // 2
+            picture[max(top, 0) : bottom, max(left, 0) : left + thick] = colour

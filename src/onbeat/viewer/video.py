@@ -1,0 +1,154 @@
+"""A dance as an mp4 file with its song: H.264 and AAC, made frame by frame, in step, whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from onbeat._shapes import Float32, Times
+from onbeat.errors import MissingExtraError, OnbeatError
+from onbeat.motion import Motion
+from onbeat.music.song import Song
+from onbeat.viewer.camera import CameraPath, Size, follow
+from onbeat.viewer.figure import Figure, ground_height
+from onbeat.viewer.raster import render_frame
+from onbeat.viewer.sound import SoundTrack
+from onbeat.viewer.stage import Stage
+from onbeat.viewer.strip import Strip, loudness
+
+STRIP = 0.1
+"""The strip's part of the picture's height."""
+
+
+def write_video(
+    path: str | os.PathLike[str],
+    motion: Motion,
+    song: Song | None = None,
+    audio: tuple[Float32, int] | None = None,
+    *,
+    fps: float = 30,
+    size: Size = (1280, 720),
+    stops: Times | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> None:
+    """Write a dance as an mp4 that plays everywhere (yuv420p, index first), exactly as long as the dance.
+
+    Frame ``i`` shows the dance at ``i / fps`` seconds and lasts until the next one. Sound begins with the first
+    frame; where it is shorter than the dance, silence follows. Memory does not grow with the length.
+
+    Parameters
+    ----------
+    path : the file; an older one is replaced once the new one is whole.
+    motion, song : what is danced, and what its strip shows.
+    audio : ((N, channels) samples -1…1, samples a second), or None for a silent film.
+    fps : frames a second.
+    size : width and height in pixels; even numbers.
+    stops : seconds at which the dancer stops, marked in the strip.
+    progress : called with the part that is done, 0…1.
+
+    Raises
+    ------
+    MissingExtraError
+        If PyAV is not installed.
+    OnbeatError
+        If the file cannot be written, or the size is odd.
+    """
+    av = _av()
+    if size[0] % 2 or size[1] % 2 or min(size) < 16:
+        raise OnbeatError(f"a video of {size[0]} x {size[1]} pixels cannot be coded; give even numbers from 16 on")
+    with _whole_file(Path(path)) as temporary:
+        _encode(av, temporary, motion, song, audio, fps, size, np.zeros(0) if stops is None else stops, progress)
+
+
+def _av() -> Any:
+    """PyAV, which is an extra."""
+    try:
+        return importlib.import_module("av")
+    except ImportError:
+        raise MissingExtraError(
+            "writing a video needs PyAV, which is not installed; run: pip install 'onbeat[video]'"
+        ) from None
+
+
+@contextlib.contextmanager
+def _whole_file(path: Path) -> Iterator[Path]:
+    """A temporary file beside ``path`` that takes its name at the end, or is gone if anything, Ctrl-C too, went wrong."""
+    temporary: Path | None = None
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+        os.close(handle)
+        temporary = Path(name)
+        yield temporary
+        temporary.chmod(0o644)
+        temporary.replace(path)
+    except OSError as error:
+        raise OnbeatError(f"cannot write {path}: {error.strerror or error}; choose another folder with -o") from None
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+def _encode(
+    av: Any,
+    path: Path,
+    motion: Motion,
+    song: Song | None,
+    audio: tuple[Float32, int] | None,
+    fps: float,
+    size: Size,
+    stops: Times,
+    progress: Callable[[float], None] | None,
+) -> None:
+    count = max(1, round(motion.duration * fps))
+    with av.open(str(path), "w", format="mp4", options={"movflags": "+faststart", "fflags": "+bitexact"}) as container:
+        video = _video_stream(container, fps, size)
+        sound = None if audio is None else SoundTrack(av, container, audio[0], audio[1], count / fps)
+        level = None if audio is None else loudness(audio[0], size[0], count / fps, audio[1])
+        strip = Strip.of(song, level, stops, count / fps, max(4, int(size[1] * STRIP)), size[0])
+        for number, picture in enumerate(pictures(motion, fps, size, strip)):
+            frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
+            frame.pts = number
+            container.mux(video.encode(frame))
+            if sound is not None:
+                sound.write_until((number + 1) / fps)
+            if progress is not None:
+                progress((number + 1) / count)
+        container.mux(video.encode(None))
+        if sound is not None:
+            sound.close()
+
+
+def _video_stream(container: Any, fps: float, size: Size) -> Any:
+    from fractions import Fraction
+
+    rate = Fraction(fps).limit_denominator(1001)
+    # One thread: the coder's bytes depend on how many it has.
+    options = {"crf": "19", "preset": "veryfast", "threads": "1", "x264-params": "keyint=60"}
+    stream = container.add_stream("libx264", rate=rate, options=options)
+    stream.width, stream.height = size
+    stream.pix_fmt = "yuv420p"
+    stream.time_base = stream.codec_context.time_base = 1 / rate
+    return stream
+
+
+def pictures(motion: Motion, fps: float, size: Size, strip: Strip) -> Iterator[np.ndarray]:
+    """The film's pictures (H, W, 3), one by one."""
+    figure = Figure.of(motion.skeleton)
+    ground = ground_height(figure, motion)
+    count = max(1, round(motion.duration * fps))
+    path: CameraPath | None = None
+    poses = motion.at(np.arange(count) / fps).replace(fps=fps)
+    # The strip takes the lower part: the dancer stands in the middle of what is left.
+    path = follow(poses, figure, ground, size=size, shift=STRIP / 2)
+    stage = Stage.lit_from(path.azimuth, ground)
+    for number in range(count):
+        picture = render_frame(poses.positions[number], figure, path[number], size, stage)
+        strip.draw(picture, number / fps)
+        yield picture
