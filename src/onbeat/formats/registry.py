@@ -11,6 +11,7 @@ from onbeat.errors import FormatError
 from onbeat.formats.asfamc import read_amc
 from onbeat.formats.bvh import read_bvh, write_bvh
 from onbeat.formats.conventions import Convention
+from onbeat.formats.glb import write_glb
 from onbeat.formats.npz import read_npz, write_npz
 from onbeat.motion import Motion
 
@@ -30,6 +31,7 @@ FORMATS = (
     Format(".bvh", read_bvh, write_bvh),
     Format(".amc", read_amc, None),
     Format(".npz", read_npz, write_npz),
+    Format(".glb", None, write_glb),
 )
 
 

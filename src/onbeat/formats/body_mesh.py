@@ -1,0 +1,114 @@
+"""A simple visible body for formats that carry a mesh: one tapering capsule per bone, moved rigidly by its joint."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from onbeat._shapes import Ints, Positions
+from onbeat.errors import BodyError
+from onbeat.motion import Body, Skeleton
+
+SIDES = 10
+_ADULT_LEG = 0.82
+_RADII = {
+    "hips": (0.105, 0.1),
+    "spine": (0.1, 0.105),
+    "chest": (0.11, 0.075),
+    "neck": (0.055, 0.05),
+    "head": (0.09, 0.085),
+    "collar": (0.07, 0.055),
+    "shoulder": (0.055, 0.04),
+    "elbow": (0.041, 0.028),
+    "wrist": (0.03, 0.026),
+    "hand": (0.026, 0.018),
+    "hip": (0.086, 0.054),
+    "knee": (0.056, 0.038),
+    "ankle": (0.04, 0.03),
+    "toe": (0.03, 0.022),
+}
+"""Metres at the start and the end of the bones that hang on a joint, for an adult, by the joint's role."""
+
+
+class Mesh(NamedTuple):
+    """Triangles of a body in the rest pose; each vertex belongs to one joint."""
+
+    vertices: Positions
+    """(V, 3) metres."""
+    normals: Positions
+    """(V, 3) unit vectors."""
+    joints: Ints
+    """(V,) the joint that moves each vertex."""
+    triangles: Ints
+    """(T, 3) vertices, counter-clockwise seen from outside."""
+
+
+def body_mesh(skeleton: Skeleton) -> Mesh:
+    """The mesh of a skeleton in its rest pose with the root at the origin."""
+    parts = [_capsule(*ends) for ends in _bones(skeleton)]
+    owners = [parent for _, _, _, _, parent in _bones(skeleton)]
+    counts = [len(points) for points, _, _ in parts]
+    starts = np.cumsum([0, *counts[:-1]])
+    return Mesh(
+        np.concatenate([points for points, _, _ in parts]),
+        np.concatenate([normals for _, normals, _ in parts]),
+        np.repeat(np.array(owners, np.int64), counts),
+        np.concatenate([triangles + start for (_, _, triangles), start in zip(parts, starts, strict=True)]),
+    )
+
+
+def _bones(skeleton: Skeleton) -> list[tuple[Positions, Positions, float, float, int]]:
+    """Start, end, radii and moving joint of each bone that has a length; a ball where there is none."""
+    rest, radii = skeleton.rest_positions, _radii(skeleton)
+    made: list[tuple[Positions, Positions, float, float, int]] = []
+    for joint in range(1, len(skeleton)):
+        parent, length = int(skeleton.parents[joint]), float(skeleton.bone_lengths[joint])
+        if length > 1e-4:
+            start, end = radii[parent]
+            start, end = min(start, 0.6 * length + 0.01), min(end, 0.6 * length + 0.01)
+            made.append((rest[parent], rest[joint], start, end, parent))
+    return made or [(rest[0], rest[0] + [0, 0, 1e-3], 0.05, 0.05, 0)]
+
+
+def _radii(skeleton: Skeleton) -> list[tuple[float, float]]:
+    """Radii for the bones below each joint: those of its role, or of the nearest role above it."""
+    try:
+        body = Body.of(skeleton)
+    except BodyError:
+        return [(0.03, 0.025)] * len(skeleton)
+    size = min(max(body.leg_length / _ADULT_LEG, 0.2), 3.0)
+    by_joint = {joint: _RADII[role.split("_")[-1]] for role, joint in body.joints.items()}
+    radii: list[tuple[float, float]] = []
+    for joint in range(len(skeleton)):
+        parent = max(int(skeleton.parents[joint]), 0)
+        start, end = by_joint.setdefault(joint, by_joint.get(parent, (0.05, 0.05)))
+        radii.append((start * size, end * size))
+    return radii
+
+
+def _capsule(
+    start: Positions, end: Positions, radius_a: float, radius_b: float, _owner: int
+) -> tuple[Positions, Positions, Ints]:
+    """Vertices, normals and triangles of a tapering capsule: half a ball, a cone, half a ball."""
+    along = (end - start) / np.linalg.norm(end - start)
+    helper = np.eye(3)[int(np.argmin(np.abs(along)))]
+    u = np.cross(along, helper)
+    u /= np.linalg.norm(u)
+    v = np.cross(along, u)
+    around = np.arange(SIDES) * (2 * np.pi / SIDES)
+    ring: Positions = np.cos(around)[:, None] * u + np.sin(around)[:, None] * v
+    slopes = np.radians([-90, -60, -30, 0, 0, 30, 60, 90])
+    normals: Positions = np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along
+    radius = np.repeat([radius_a, radius_b], 4)[:, None, None]
+    centre = np.repeat(np.stack((start, end)), 4, axis=0)[:, None]
+    vertices: Positions = (centre + radius * normals).reshape(-1, 3)
+    return vertices, normals.reshape(-1, 3), _tube(len(slopes))
+
+
+def _tube(rings: int) -> Ints:
+    """Triangles between neighbouring rings of :data:`SIDES` vertices; those of no area at the poles are left out."""
+    low, side = np.meshgrid(np.arange(rings - 1) * SIDES, np.arange(SIDES), indexing="ij")
+    a, b = low + side, low + (side + 1) % SIDES
+    first, second = np.stack((a, b, b + SIDES), -1), np.stack((a, b + SIDES, a + SIDES), -1)
+    return np.concatenate((first[1:].reshape(-1, 3), second[:-1].reshape(-1, 3)))
