@@ -1,11 +1,57 @@
-"""Planted feet stay planted through joins."""
+"""Feet that rest on the floor stay where they are through a join.
+
+Around a join a resting foot follows neither clip's blend but an anchor: in its own clip's manner (the little it slips,
+how the heel rises) but moved and turned on the floor so that the two clips' feet meet. The way from the blended foot to
+its anchor is eased in and out while the foot is in the air. The legs follow by two-bone inverse kinematics; where a leg
+would be too short the pelvis sinks a little.
+"""
 
 from __future__ import annotations
 
-from onbeat._shapes import Bools, Ints, Positions, Rotations, Times
-from onbeat.dance.blend import Windows
-from onbeat.dance.sources import Pose
+from dataclasses import dataclass
+
+import numpy as np
+
+from onbeat._shapes import Array, Bools, Ints, Positions, Rotations, Times
+from onbeat.dance.blend import Windows, quintic
+from onbeat.dance.pelvis import sunk
+from onbeat.dance.sources import Pose, contact_role
+from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
+from onbeat.motion.contacts import SIDES, runs
+from onbeat.motion.kinematics import forward_kinematics
+from onbeat.motion.legs import place_foot
+
+EASE = 0.2
+"""Seconds in which a foot leaves its anchor or comes to it, where the step is that long."""
+FARTHEST = 0.12
+"""Metres: feet of the two clips farther apart than this do not meet; the foot steps instead."""
+
+
+@dataclass(frozen=True)
+class Foot:
+    """One foot through F frames.
+
+    Parameters
+    ----------
+    ankles : (F, 3) metres.
+    soles : (F, 3) metres, the point that touches the floor: the toe, or the ankle of a body without toes.
+    turns : (F, 4) wxyz, the world rotation of the ankle.
+    """
+
+    ankles: Positions
+    soles: Positions
+    turns: Rotations
+
+    @classmethod
+    def of(cls, body: Body, side: str, world: tuple[Rotations, Positions]) -> Foot:
+        """The foot of ``side`` in world rotations (F, J, 4) and positions (F, J, 3)."""
+        ankle, sole = body[f"{side}_ankle"], body[f"{side}_{contact_role(body)}"]
+        return cls(world[1][:, ankle], world[1][:, sole], world[0][:, ankle])
+
+    def part(self, frames: slice) -> Foot:
+        """Some of the frames."""
+        return Foot(self.ankles[frames], self.soles[frames], self.turns[frames])
 
 
 def plant_feet(
@@ -17,5 +63,148 @@ def plant_feet(
     windows: Windows,
     times: Times,
 ) -> Pose:
-    """The poses with feet that rest kept in place (not yet: the poses as they are)."""
-    return pose
+    """The poses with the feet that rest around joins kept in place.
+
+    Parameters
+    ----------
+    body : roles of the skeleton.
+    pose : F blended poses.
+    shown : world rotations (F, J, 4) and positions (F, J, 3) of the clips before blending.
+    contacts : (F, 2) true where the left, right foot rests.
+    moves : (F,) the move each frame shows.
+    windows : of the joins.
+    times : (F,) seconds.
+    """
+    if not len(windows.centres):
+        return pose
+    world = forward_kinematics(body.skeleton, pose.rotations, pose.roots)
+    targets: dict[str, Foot] = {}
+    changed = np.zeros(len(times), bool)
+    for number, side in enumerate(SIDES):
+        foot = Foot.of(body, side, world)
+        offsets = _offsets(Foot.of(body, side, shown), foot, contacts[:, number], moves, windows, times)
+        targets[side] = Foot(
+            foot.ankles + offsets[:, :3], foot.soles, rot.multiply(rot.exp(offsets[:, 3:]), foot.turns)
+        )
+        changed |= np.abs(offsets).max(axis=1) > 1e-7
+    roots = pose.roots - sunk(body, world, {side: foot.ankles for side, foot in targets.items()}, changed, times)
+    frames = np.flatnonzero(changed | np.any(roots != pose.roots, axis=1))
+    return _stepped(body, Pose(pose.rotations, roots), targets, frames)
+
+
+def _stepped(body: Body, pose: Pose, targets: dict[str, Foot], frames: Ints) -> Pose:
+    """The poses with both feet put to their targets in ``frames``."""
+    rotations, roots = pose.rotations[frames], pose.roots[frames]
+    world = forward_kinematics(body.skeleton, rotations, roots)
+    for side, foot in targets.items():
+        rotations = place_foot(body, side, rotations, world, foot.ankles[frames], foot.turns[frames])
+    out = pose.rotations.copy()
+    out[frames] = rotations
+    return Pose(out, pose.roots)
+
+
+def _offsets(shown: Foot, blended: Foot, rests: Bools, moves: Ints, windows: Windows, times: Times) -> Array:
+    """(F, 6) from the blended ankle to where it should be: metres, and a world rotation vector in radians."""
+    offsets, held = np.zeros((len(times), 6)), np.zeros(len(times), bool)
+    inside = windows.join_at(times) >= 0
+    for first, last in runs(rests):
+        if inside[first:last].any():
+            for start, end in _unbroken(shown, moves, first, last):
+                span = slice(start, end)
+                anchored = _anchored(shown.part(span), moves[span], windows, times[span])
+                turned = rot.log(rot.multiply(anchored.turns, rot.inverse(blended.turns[span])))
+                offsets[span] = np.concatenate((anchored.ankles - blended.ankles[span], turned), axis=1)
+                held[span] = True
+    return _eased(offsets, held, rests, times)
+
+
+def _unbroken(foot: Foot, moves: Ints, first: int, last: int) -> list[tuple[int, int]]:
+    """A run cut at joins where the feet of the two clips are too far apart to meet."""
+    joins = first + 1 + np.flatnonzero(np.diff(moves[first:last]))
+    apart = np.linalg.norm((foot.soles[joins] - foot.soles[joins - 1])[:, :2], axis=1)
+    edges = [first, *joins[apart > FARTHEST].tolist(), last]
+    return list(zip(edges[:-1], edges[1:], strict=True))
+
+
+def _anchored(foot: Foot, moves: Ints, windows: Windows, times: Times) -> Foot:
+    """The clips' own foot through one run, its pieces moved and turned on the floor so that they meet at the joins.
+
+    The pieces are moved such that, weighed by how long they last, they are moved the least. Height and tilt of the two
+    clips at a join are eased into each other over its window.
+    """
+    soles, turns = foot.soles.copy(), foot.turns.copy()
+    joins = np.flatnonzero(np.diff(moves)) + 1
+    pieces = np.split(np.arange(len(moves)), joins)
+    weights = np.array([len(piece) for piece in pieces]) / len(moves)
+    gaps = np.array([twist(turns[j - 1], turns[j]) for j in joins])
+    yaws = np.concatenate(([0.0], -np.cumsum(gaps)))
+    yaws -= weights @ yaws
+    gaps = (soles[joins - 1] - soles[joins]) * np.array([1.0, 1.0, 0.0])
+    shifts = np.concatenate((np.zeros((1, 3)), np.cumsum(gaps, axis=0)))
+    shifts -= weights @ shifts
+    for piece, yaw, shift in zip(pieces, yaws, shifts, strict=True):
+        turns[piece] = rot.multiply(rot.yaw(yaw), turns[piece])
+        soles[piece] += shift
+    for j in joins:
+        _meet(soles, turns, j, moves, windows, times)
+    arms = rot.rotate(rot.inverse(foot.turns), foot.ankles - foot.soles)
+    return Foot(soles + rot.rotate(turns, arms), soles, turns)
+
+
+def _meet(soles: Positions, turns: Rotations, frame: int, moves: Ints, windows: Windows, times: Times) -> None:
+    """Ease height and tilt of one clip's foot into the other's over the window of the join at ``frame``, in place."""
+    join = int(moves[frame - 1])
+    near = np.flatnonzero((times > windows.starts[join]) & (times < windows.ends[join]))
+    later = near >= frame
+    share = quintic((times[near] - windows.starts[join]) / windows.spans[join]) - later
+    rise = soles[frame, 2] - soles[frame - 1, 2]
+    tilt = rot.log(rot.multiply(rot.inverse(turns[frame - 1]), turns[frame]))
+    soles[near, 2] += rise * share
+    turns[near] = rot.multiply(turns[near], rot.exp(tilt * share[:, None]))
+
+
+def twist(a: Rotations, b: Rotations) -> float:
+    """Radians about the vertical by which ``b`` (4,) is turned against ``a`` (4,)."""
+    turn = rot.multiply(b, rot.inverse(a))
+    return float(np.angle(np.exp(2j * np.arctan2(turn[3], turn[0]))))
+
+
+def _eased(offsets: Array, held: Bools, rests: Bools, times: Times) -> Array:
+    """Offsets (F, 6) with those between held runs filled by cubics that go to zero within a step."""
+    out, frames = offsets.copy(), len(offsets)
+    step = times[1] - times[0] if frames > 1 else 1.0
+    reach = max(1, round(EASE / step))
+    spans = runs(held)
+    for k, (first, last) in enumerate(spans):
+        previous = spans[k - 1][1] if k else -reach
+        following = spans[k + 1][0] if k + 1 < len(spans) else frames + reach
+        if following - last < 2 * reach and following < frames:
+            out[last:following] = _cubic(offsets, last - 1, following, step)
+        else:
+            end = min(last - 1 + reach, frames)
+            out[last:end] = _cubic(offsets, last - 1, last - 1 + reach, step)[: end - last]
+        if first - previous >= 2 * reach or previous < 0:
+            begin = max(first - reach, 0)
+            fill = _cubic(offsets, first - reach, first, step)
+            out[begin:first] = fill[len(fill) - (first - begin) :]
+    return out
+
+
+def _cubic(offsets: Array, left: int, right: int, step: float) -> Array:
+    """Values strictly between frames ``left`` and ``right`` of the cubic that meets value and velocity at both."""
+    u = (np.arange(left + 1, right) - left)[:, None] / (right - left)
+    (a, va), (b, vb) = _end(offsets, left, -1), _end(offsets, right, 1)
+    span = right - left
+    start = (2 * u**3 - 3 * u**2 + 1) * a + (u**3 - 2 * u**2 + u) * span * va
+    return start + (3 * u**2 - 2 * u**3) * b + (u**3 - u**2) * span * vb
+
+
+def _end(offsets: Array, frame: int, inward: int) -> tuple[Array, Array]:
+    """Value and change a frame of the offsets at a held frame; zero where nothing is held."""
+    none = np.zeros(6)
+    if not 0 <= frame < len(offsets) or not offsets[frame].any():
+        return none, none
+    beside = frame + inward
+    if not 0 <= beside < len(offsets):
+        return offsets[frame], none
+    return offsets[frame], (offsets[beside] - offsets[frame]) * inward
