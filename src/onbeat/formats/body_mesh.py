@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from onbeat._shapes import Ints, Positions
+from onbeat._shapes import Array, Ints, Positions
 from onbeat.errors import BodyError
 from onbeat.motion import Body, Skeleton
 
@@ -96,10 +96,10 @@ def _capsule(
     u = np.cross(along, helper)
     u /= np.linalg.norm(u)
     v = np.cross(along, u)
-    around = np.arange(SIDES) * (2 * np.pi / SIDES)
+    around: Array = np.arange(SIDES) * (2 * np.pi / SIDES)
     ring: Positions = np.cos(around)[:, None] * u + np.sin(around)[:, None] * v
-    slopes = np.radians([-90, -60, -30, 0, 0, 30, 60, 90])
-    normals: Positions = np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along
+    slopes: Array = np.radians([-90, -60, -30, 0, 0, 30, 60, 90])
+    normals = np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along
     radius = np.repeat([radius_a, radius_b], 4)[:, None, None]
     centre = np.repeat(np.stack((start, end)), 4, axis=0)[:, None]
     vertices: Positions = (centre + radius * normals).reshape(-1, 3)
