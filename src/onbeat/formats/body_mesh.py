@@ -98,8 +98,8 @@ def _capsule(
     v = np.cross(along, u)
     around: Array = np.arange(SIDES) * (2 * np.pi / SIDES)
     ring: Positions = np.cos(around)[:, None] * u + np.sin(around)[:, None] * v
-    slopes: Array = np.radians([-90, -60, -30, 0, 0, 30, 60, 90])
-    normals = np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along
+    slopes: Array = np.pi * np.array([-90, -60, -30, 0, 0, 30, 60, 90]) / 180
+    normals: Positions = np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along
     radius = np.repeat([radius_a, radius_b], 4)[:, None, None]
     centre = np.repeat(np.stack((start, end)), 4, axis=0)[:, None]
     vertices: Positions = (centre + radius * normals).reshape(-1, 3)
