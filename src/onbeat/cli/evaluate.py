@@ -146,6 +146,8 @@ def evaluate_command(
     json
         Print everything as JSON on stdout instead of a table.
     """
+    if not start >= 0:
+        raise MetricError(f"--start is {start:g} s; give a second of the song, 0 or later")
     danced, song = _motion(motion, fps), _song(music)
     scores = evaluate_motion(danced, song.cut(start, max(song.duration - start, 0.0)), seed)
     if json:

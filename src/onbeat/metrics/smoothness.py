@@ -35,6 +35,7 @@ RATE = 120.0
 """Hz at which paths are analysed."""
 SMOOTHING = 1 / 30
 """Seconds, standard deviation of the smoothing of joint paths."""
+_REACH = 3.0  # standard deviations that the smoothing looks to each side
 
 
 def validate(paths: Positions, fps: float) -> None:
@@ -51,7 +52,8 @@ def validate(paths: Positions, fps: float) -> None:
 def derivative(paths: Positions, fps: float, order: int) -> tuple[Times, Array]:
     """Magnitude of the ``order``-th time derivative of paths (F, ..., 3): times (N,) and (N, ...) in m/s^order.
 
-    Paths too short to differentiate (under ``order`` + 1 frames) give no times.
+    The first and last tenth of a second, where the smoothing reaches past the ends, are left out; a path that is
+    shorter than both gives no times.
 
     Examples
     --------
@@ -62,16 +64,17 @@ def derivative(paths: Positions, fps: float, order: int) -> tuple[Times, Array]:
     """
     validate(paths, fps)
     frames = len(paths)
-    if frames < max(order + 1, 4):
-        return np.zeros(0), np.zeros((0, *paths.shape[1:-1]))
     times = np.arange(int(np.floor((frames - 1) / fps * RATE + 1e-6)) + 1) / RATE
-    dense = CubicSpline(np.arange(frames) / fps, paths)(times)
-    # Smoothing with the edge value held would bend a path that moves there: hold its slope instead.
-    trend = times.reshape(-1, *[1] * (paths.ndim - 1)) / times[-1] * (dense[-1] - dense[0]) + dense[0]
-    change = gaussian_filter1d(dense - trend, SMOOTHING * RATE, axis=0, mode="mirror") + trend
+    reach = round(_REACH * SMOOTHING * RATE)
+    known = slice(reach + order, len(times) - reach - order)  # elsewhere the filter would have to invent the path
+    if frames < 4 or known.start >= known.stop:
+        return np.zeros(0), np.zeros((0, *paths.shape[1:-1]))
+    change = gaussian_filter1d(
+        CubicSpline(np.arange(frames) / fps, paths)(times), SMOOTHING * RATE, axis=0, truncate=_REACH
+    )
     for _ in range(order):
         change = np.gradient(change, 1 / RATE, axis=0)
-    return times, np.linalg.norm(change, axis=-1)
+    return times[known], np.linalg.norm(change[known], axis=-1)
 
 
 def jerk(motion: Motion, joints: Ints) -> tuple[Times, Array]:
@@ -113,8 +116,8 @@ def evaluate(
     Returns
     -------
     For each group ``hands``, ``feet``, ``all``: ``jerk_<group>_joins``, ``…_elsewhere`` and ``…_source`` (means, m/s³),
-    ``…_joins_p95``, ``…_source_p95``, and ``…_ratio``, the joins' mean over the source's, or over elsewhere where no
-    source is given. None where there is nothing to measure.
+    the same three with ``_p95`` (95th percentiles), and ``…_ratio``, ``…_p95_ratio``: joins over source, or over
+    elsewhere where no source is given. None where there is nothing to measure.
     """
     result: dict[str, float | None] = {}
     sources = [(clip, joint_groups(Body.of(clip.skeleton))) for clip in source]
@@ -123,12 +126,17 @@ def evaluate(
         inside = near_joins(times, joins, window)
         pool = [jerk(clip, groups[group])[1].ravel() for clip, groups in sources]
         original = np.concatenate(pool) if pool else np.zeros(0)
-        key = f"jerk_{group}"
-        result[f"{key}_joins"] = statistic(values[inside], "mean")
-        result[f"{key}_joins_p95"] = statistic(values[inside], "p95")
-        result[f"{key}_elsewhere"] = statistic(values[~inside], "mean")
-        result[f"{key}_source"] = statistic(original, "mean")
-        result[f"{key}_source_p95"] = statistic(original, "p95")
-        against = result[f"{key}_source"] if pool else result[f"{key}_elsewhere"]
-        result[f"{key}_ratio"] = ratio(result[f"{key}_joins"], against)
+        places = {"joins": values[inside], "elsewhere": values[~inside], "source": original}
+        result |= _compared(f"jerk_{group}", places, "source" if pool else "elsewhere")
+    return result
+
+
+def _compared(key: str, places: dict[str, Array], against: str) -> dict[str, float | None]:
+    """Mean and 95th percentile at each place, and of the joins over those of the place ``against``."""
+    result: dict[str, float | None] = {}
+    for which, suffix in (("mean", ""), ("p95", "_p95")):
+        for place, values in places.items():
+            result[f"{key}_{place}{suffix}"] = statistic(values, which)
+        joins, other = result[f"{key}_joins{suffix}"], result[f"{key}_{against}{suffix}"]
+        result[f"{key}{suffix}_ratio"] = ratio(joins, other)
     return result
