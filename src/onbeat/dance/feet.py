@@ -9,6 +9,7 @@ would be too short the pelvis sinks a little.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,8 +23,10 @@ from onbeat.motion.contacts import SIDES, runs
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.legs import place_foot
 
-EASE = 0.2
-"""Seconds in which a foot leaves its anchor or comes to it, where the step is that long."""
+EASE, QUICKEST = 0.3, 0.12
+"""Seconds in which a foot leaves its anchor or comes to it; the second where its step is shorter."""
+PARTED = 0.5
+"""Part of a window in whose middle a foot is in the air if it rests on one side of the join only."""
 FARTHEST = 0.12
 """Metres: feet of the two clips farther apart than this do not meet; the foot steps instead."""
 
@@ -92,6 +95,19 @@ def plant_feet(
     return _stepped(body, Pose(pose.rotations, roots), targets, frames)
 
 
+def parted(contacts: Bools, moves: Ints, windows: Windows, times: Times) -> Bools:
+    """Contacts (F, 2) less the middle of windows in which a foot rests on one side of the join and swings on the other.
+
+    There the foot must have left the floor before the join, or come to it after, not at a stroke.
+    """
+    out = contacts.copy()
+    for frame in (np.flatnonzero(np.diff(moves)) + 1).tolist():
+        join = int(moves[frame - 1])
+        near = np.abs(times - windows.centres[join]) < PARTED * windows.spans[join] / 2
+        out[np.ix_(near, contacts[frame - 1] != contacts[frame])] = False
+    return out
+
+
 def _stepped(body: Body, pose: Pose, targets: dict[str, Foot], frames: Ints) -> Pose:
     """The poses with both feet put to their targets in ``frames``."""
     rotations, roots = pose.rotations[frames], pose.roots[frames]
@@ -123,7 +139,7 @@ def _unbroken(foot: Foot, moves: Ints, first: int, last: int) -> list[tuple[int,
     joins = first + 1 + np.flatnonzero(np.diff(moves[first:last]))
     apart = np.linalg.norm((foot.soles[joins] - foot.soles[joins - 1])[:, :2], axis=1)
     edges = [first, *joins[apart > FARTHEST].tolist(), last]
-    return list(zip(edges[:-1], edges[1:], strict=True))
+    return list(pairwise(edges))
 
 
 def _anchored(foot: Foot, moves: Ints, windows: Windows, times: Times) -> Foot:
@@ -145,7 +161,7 @@ def _anchored(foot: Foot, moves: Ints, windows: Windows, times: Times) -> Foot:
     for piece, yaw, shift in zip(pieces, yaws, shifts, strict=True):
         turns[piece] = rot.multiply(rot.yaw(yaw), turns[piece])
         soles[piece] += shift
-    for j in joins:
+    for j in joins.tolist():
         _meet(soles, turns, j, moves, windows, times)
     arms = rot.rotate(rot.inverse(foot.turns), foot.ankles - foot.soles)
     return Foot(soles + rot.rotate(turns, arms), soles, turns)
@@ -173,24 +189,27 @@ def _eased(offsets: Array, held: Bools, rests: Bools, times: Times) -> Array:
     """Offsets (F, 6) with those between held runs filled by cubics that go to zero within a step."""
     out, frames = offsets.copy(), len(offsets)
     step = times[1] - times[0] if frames > 1 else 1.0
-    reach = max(1, round(EASE / step))
-    spans = runs(held)
+    ease, quickest = max(1, round(EASE / step)), max(1, round(QUICKEST / step))
+    landings, spans = runs(rests), runs(held)
     for k, (first, last) in enumerate(spans):
-        previous = spans[k - 1][1] if k else -reach
-        following = spans[k + 1][0] if k + 1 < len(spans) else frames + reach
-        if following - last < 2 * reach and following < frames:
-            out[last:following] = _cubic(offsets, last - 1, following, step)
+        free = min([a for a, _ in landings if a >= last], default=frames + ease) - last
+        leave = last - 1 + int(np.clip(free, quickest, ease))
+        free = first - max([b for _, b in landings if b <= first], default=-ease)
+        arrive = first - int(np.clip(free, quickest, ease))
+        following = spans[k + 1][0] if k + 1 < len(spans) else frames + 2 * ease
+        previous = spans[k - 1][1] if k else -2 * ease
+        if following - last < 2 * ease:
+            out[last:following] = _cubic(offsets, last - 1, following)
         else:
-            end = min(last - 1 + reach, frames)
-            out[last:end] = _cubic(offsets, last - 1, last - 1 + reach, step)[: end - last]
-        if first - previous >= 2 * reach or previous < 0:
-            begin = max(first - reach, 0)
-            fill = _cubic(offsets, first - reach, first, step)
+            out[last : min(leave, frames)] = _cubic(offsets, last - 1, leave)[: frames - last]
+        if first - previous >= 2 * ease:
+            fill = _cubic(offsets, arrive, first)
+            begin = max(arrive + 1, 0)
             out[begin:first] = fill[len(fill) - (first - begin) :]
     return out
 
 
-def _cubic(offsets: Array, left: int, right: int, step: float) -> Array:
+def _cubic(offsets: Array, left: int, right: int) -> Array:
     """Values strictly between frames ``left`` and ``right`` of the cubic that meets value and velocity at both."""
     u = (np.arange(left + 1, right) - left)[:, None] / (right - left)
     (a, va), (b, vb) = _end(offsets, left, -1), _end(offsets, right, 1)

@@ -9,7 +9,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Bools, Ints, Times
 from onbeat.dance.blend import BLENDS, Blend, Windows
-from onbeat.dance.feet import plant_feet
+from onbeat.dance.feet import parted, plant_feet
 from onbeat.dance.plan import DancePlan
 from onbeat.dance.sources import Pose, Sources, Warp, placed, standing_at
 from onbeat.dance.windows import fitted_windows, link_speeds
@@ -90,7 +90,7 @@ def realise(
         peaks = _peaks(sources, shown_world[1], moves, times)
     windows = fitted_windows(sources, how, peaks)
     pose = _joined(sources, windows, how, shown, times)
-    contacts = standing_at(sources, standing, moves, times)
+    contacts = parted(standing_at(sources, standing, moves, times), moves, windows, times)
     if plant:
         pose = plant_feet(body, pose, shown_world, contacts, moves, windows, times)
     roots = pose.roots - _middle(pose.roots)
