@@ -66,7 +66,7 @@ def test_a_ball_is_drawn_where_the_camera_projects_it() -> None:
 
 def test_the_nearer_hides_the_farther() -> None:
     towards = np.array([0.0, -1.0, 0.04])
-    places = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0] + towards])
+    places = np.add([0.0, 0.0, 1.0], [[0.0, 0.0, 0.0], towards])
     picture = render_frame(places, balls("torso", "head"), CAMERA, SIZE)
     column, row = CAMERA.project(places[1], SIZE).astype(int)
     assert coloured(picture, 0)[row, column]
@@ -79,7 +79,7 @@ def test_the_shadow_falls_on_the_far_side_from_the_light(side: float) -> None:
     light = (side, 0.0, 1.0)
     place = np.array([[0.0, 0.0, 0.7]])
     with_ball = render_frame(place, balls("head"), CAMERA, SIZE, Stage(light)).astype(int)
-    without = render_frame(place + [0, 0, 50.0], balls("head"), CAMERA, SIZE, Stage(light)).astype(int)
+    without = render_frame(place + 50 * np.eye(3)[2:], balls("head"), CAMERA, SIZE, Stage(light)).astype(int)
     darker = (without - with_ball).min(-1) > 25
     darker &= ~coloured(with_ball.astype(np.uint8), 0)
     column, row = CAMERA.project(np.array([-side * 0.7, 0.0, 0.0]), SIZE).astype(int)
@@ -91,18 +91,18 @@ def test_the_shadow_falls_on_the_far_side_from_the_light(side: float) -> None:
 def test_rays_meet_a_tapered_capsule_on_its_skin() -> None:
     cones = cones_from(np.array([[[-0.3, 0.1, 3.0], [0.4, -0.2, 3.4]]]), np.array([[0.2, 0.08]]))
     slopes = np.random.default_rng(1).uniform(-0.2, 0.2, (400, 2))
-    depths = np.array([hit(cones[0], x, y) for x, y in slopes])
+    depths = np.array([hit(cones, 0, x, y) for x, y in slopes])
     met = np.isfinite(depths)
     assert 40 < met.sum() < 360
     for (x, y), t in zip(slopes[met], depths[met], strict=True):
-        off, nx, ny, nz = outward(cones[0], x * t, y * t, t)
+        off, nx, ny, nz = outward(cones, 0, x * t, y * t, t)
         assert abs(off) < 1e-6
         assert nx * x + ny * y + nz < 1e-9  # the skin faces the camera
 
 
 def test_a_ball_inside_the_other_end_is_one_ball() -> None:
     cones = cones_from(np.array([[[0, 0, 3.0], [0, 0.01, 3.0]]]), np.array([[0.1, 0.3]]))
-    assert hit(cones[0], 0.0, 0.0) == pytest.approx(2.7, abs=1e-3)
+    assert hit(cones, 0, 0.0, 0.0) == pytest.approx(2.7, abs=1e-3)
 
 
 def test_the_same_pose_gives_the_same_bytes() -> None:

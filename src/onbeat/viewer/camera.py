@@ -134,7 +134,7 @@ def follow(
     targets = np.column_stack((middle, np.full(len(motion), ground + 0.5 * tall)))
     still = CameraPath(targets, np.zeros(len(motion)), _front(motion) + side, elevation, shift=shift)
     needed = _needed(motion.positions, figure, still, size[0] / size[1]) * margin
-    window = int(round(2.5 * sigma))
+    window = round(2.5 * sigma)
     widest = maximum_filter1d(needed, 2 * window + 1, mode="nearest")
     return replace(still, distances=gaussian_filter1d(widest, sigma, mode="nearest", radius=window))
 

@@ -15,8 +15,9 @@ from __future__ import annotations
 
 import numba
 import numpy as np
+from numpy.typing import NDArray
 
-from onbeat._shapes import Array, Positions
+from onbeat._shapes import Array, Float32, Ints, Positions
 
 AX, AY, AZ, NX, NY, NZ, LENGTH, RADIUS, TAPER, SQUARE, SIDE, END_A, END_B, RADIUS_B = range(14)
 """Columns of a cone: a, n, L, ra, k, c², the side's constant term, those of both spheres, rb."""
@@ -49,20 +50,20 @@ def cones_from(ends: Positions, radii: Array) -> Array:
 
 
 @numba.njit(cache=True)
-def hit(cone: Array, x: float, y: float) -> float:
-    """Depth at which the ray (x, y, 1) enters a cone, or infinity."""
-    nx, ny, nz, taper = cone[NX], cone[NY], cone[NZ], cone[TAPER]
+def hit(cones: Array, i: int, x: float, y: float) -> float:
+    """Depth at which the ray (x, y, 1) enters cone ``i``, or infinity."""
+    nx, ny, nz, taper = cones[i, NX], cones[i, NY], cones[i, NZ], cones[i, TAPER]
     dd = x * x + y * y + 1.0
-    da = cone[AX] * x + cone[AY] * y + cone[AZ]
+    da = cones[i, AX] * x + cones[i, AY] * y + cones[i, AZ]
     dn = nx * x + ny * y + nz
-    start = -(cone[AX] * nx + cone[AY] * ny + cone[AZ] * nz) - taper * cone[RADIUS]
-    qa = cone[SQUARE] * dd - dn * dn
-    qb = -cone[SQUARE] * da - start * dn
-    root = qb * qb - qa * cone[SIDE]
+    start = -(cones[i, AX] * nx + cones[i, AY] * ny + cones[i, AZ] * nz) - taper * cones[i, RADIUS]
+    qa = cones[i, SQUARE] * dd - dn * dn
+    qb = -cones[i, SQUARE] * da - start * dn
+    root = qb * qb - qa * cones[i, SIDE]
     if root < 0.0:
         return np.inf
     root = np.sqrt(root)
-    far = cone[SQUARE] * cone[LENGTH]
+    far = cones[i, SQUARE] * cones[i, LENGTH]
     if qa > 1e-12:
         t = (-qb - root) / qa
         reach = start + t * dn
@@ -75,56 +76,59 @@ def hit(cone: Array, x: float, y: float) -> float:
             if 0.0 < reach < far and t > 0.0:
                 return t
     best = np.inf
-    ball = da * da - dd * cone[END_A]
+    ball = da * da - dd * cones[i, END_A]
     if ball > 0.0:
         best = (da - np.sqrt(ball)) / dd
-    db = da + cone[LENGTH] * dn
-    ball = db * db - dd * cone[END_B]
+    db = da + cones[i, LENGTH] * dn
+    ball = db * db - dd * cones[i, END_B]
     if ball > 0.0:
         best = min(best, (db - np.sqrt(ball)) / dd)
     return best
 
 
 @numba.njit(cache=True)
-def outward(cone: Array, px: float, py: float, pz: float) -> tuple[float, float, float, float]:
-    """Distance from a point to a cone's skin, and the outward unit normal there."""
-    wx, wy, wz = px - cone[AX], py - cone[AY], pz - cone[AZ]
-    axial = wx * cone[NX] + wy * cone[NY] + wz * cone[NZ]
+def outward(cones: Array, i: int, px: float, py: float, pz: float) -> tuple[float, float, float, float]:
+    """Distance from a point to the skin of cone ``i``, and the outward unit normal there."""
+    wx, wy, wz = px - cones[i, AX], py - cones[i, AY], pz - cones[i, AZ]
+    axial = wx * cones[i, NX] + wy * cones[i, NY] + wz * cones[i, NZ]
     square = wx * wx + wy * wy + wz * wz - axial * axial
     # The nearest sphere stands further along by the taper's slope times the distance from the axis.
-    along = axial - cone[TAPER] * np.sqrt(max(square, 0.0) / cone[SQUARE])
-    along = min(max(along, 0.0), cone[LENGTH])
-    wx -= along * cone[NX]
-    wy -= along * cone[NY]
-    wz -= along * cone[NZ]
+    along = axial - cones[i, TAPER] * np.sqrt(max(square, 0.0) / cones[i, SQUARE])
+    along = min(max(along, 0.0), cones[i, LENGTH])
+    wx -= along * cones[i, NX]
+    wy -= along * cones[i, NY]
+    wz -= along * cones[i, NZ]
     long = np.sqrt(wx * wx + wy * wy + wz * wz) + 1e-12
-    return long - (cone[RADIUS] - cone[TAPER] * along), wx / long, wy / long, wz / long
+    return long - (cones[i, RADIUS] - cones[i, TAPER] * along), wx / long, wy / long, wz / long
 
 
 @numba.njit(cache=True)
-def gap(cone: Array, px: float, py: float, pz: float, most: float) -> float:
-    """About the distance from a point to a cone's skin (the taper's slant is left out), or ``most`` if that is less."""
-    wx, wy, wz = px - cone[AX], py - cone[AY], pz - cone[AZ]
-    along = min(max(wx * cone[NX] + wy * cone[NY] + wz * cone[NZ], 0.0), cone[LENGTH])
-    wx -= along * cone[NX]
-    wy -= along * cone[NY]
-    wz -= along * cone[NZ]
+def gap(cones: Array, i: int, px: float, py: float, pz: float, most: float) -> float:
+    """About the distance from a point to the skin of cone ``i`` (without the taper's slant), at most ``most``."""
+    wx, wy, wz = px - cones[i, AX], py - cones[i, AY], pz - cones[i, AZ]
+    along = min(max(wx * cones[i, NX] + wy * cones[i, NY] + wz * cones[i, NZ], 0.0), cones[i, LENGTH])
+    wx -= along * cones[i, NX]
+    wy -= along * cones[i, NY]
+    wz -= along * cones[i, NZ]
     square = wx * wx + wy * wy + wz * wz
-    radius = cone[RADIUS] - cone[TAPER] * along
+    radius = cones[i, RADIUS] - cones[i, TAPER] * along
     return most if square >= (radius + most) ** 2 else np.sqrt(square) - radius
 
 
 @numba.njit(cache=True)
-def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: int) -> Array:
+def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: int) -> Ints:
     """(N, 4) first and past-the-last column and row that each cone may cover; empty where it is not seen."""
     boxes = np.zeros((len(cones), 4), np.int64)
     for i in range(len(cones)):
-        cone = cones[i]
         left, right, top, bottom = np.inf, -np.inf, np.inf, -np.inf
         for end in range(2):
-            along = cone[LENGTH] * end
-            r = cone[RADIUS] if end == 0 else cone[RADIUS_B]
-            x, y, z = cone[AX] + along * cone[NX], cone[AY] + along * cone[NY], cone[AZ] + along * cone[NZ]
+            along = cones[i, LENGTH] * end
+            r = cones[i, RADIUS] if end == 0 else cones[i, RADIUS_B]
+            x, y, z = (
+                cones[i, AX] + along * cones[i, NX],
+                cones[i, AY] + along * cones[i, NY],
+                cones[i, AZ] + along * cones[i, NZ],
+            )
             if z - r < NEAR:
                 if z + r > NEAR:
                     left, right, top, bottom = 0.0, float(width), 0.0, float(height)
@@ -146,14 +150,14 @@ def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: 
 @numba.njit(cache=True)
 def cast(
     cones: Array,
-    boxes: Array,
+    boxes: Ints,
     focal: float,
     cx: float,
     cy: float,
     origin: tuple[int, int],
     shape: tuple[int, int],
     fine: int,
-) -> tuple[Array, Array]:
+) -> tuple[Float32, NDArray[np.int16]]:
     """Depth and the number of the nearest cone (-1: none) at ``fine`` × ``fine`` points of each pixel.
 
     ``origin`` is the column and row of the first pixel, ``shape`` the rows and columns looked at.
@@ -161,12 +165,11 @@ def cast(
     depth = np.full((shape[0] * fine, shape[1] * fine), np.inf, np.float32)
     nearest = np.full((shape[0] * fine, shape[1] * fine), -1, np.int16)
     for i in range(len(cones)):
-        cone = cones[i]
         for row in range((boxes[i, 2] - origin[1]) * fine, (boxes[i, 3] - origin[1]) * fine):
             y = (cy - (origin[1] + (row + 0.5) / fine)) / focal
             for column in range((boxes[i, 0] - origin[0]) * fine, (boxes[i, 1] - origin[0]) * fine):
                 x = ((origin[0] + (column + 0.5) / fine) - cx) / focal
-                t = hit(cone, x, y)
+                t = hit(cones, i, x, y)
                 if NEAR < t < depth[row, column]:
                     depth[row, column] = t
                     nearest[row, column] = i

@@ -95,9 +95,9 @@ class Figure:
 def ground_height(figure: Figure, motion: Motion) -> float:
     """Metres: the height on which the figure stands.
 
-    That of its soles in their lowest twentieth of the motion, so that it neither hovers nor sinks where a capture's
-    floor is a few centimetres off, and one bad frame does not move the floor.
+    That of its soles where most of the motion has them low: so it neither hovers nor sinks where a capture's floor
+    is a few centimetres off, and neither leaps nor a few bad frames move the floor.
     """
-    step = max(1, int(round(motion.fps / 15)))
+    step = max(1, round(motion.fps / 15))
     low, _ = figure.bounds(motion.positions[::step])
-    return float(np.percentile(low[:, 2], 5))
+    return float(np.percentile(low[:, 2], 30))

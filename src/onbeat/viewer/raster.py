@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import numba
 import numpy as np
+from numpy.typing import NDArray
 
-from onbeat._shapes import Array, Bools, Ints, Positions
+from onbeat._shapes import Array, Bools, Float32, Ints, Positions
 from onbeat.viewer.camera import Camera, Size
 from onbeat.viewer.cones import AX, AY, AZ, LENGTH, NX, NY, NZ, RADIUS, RADIUS_B, cast, cones_from, gap, outward, spans
 from onbeat.viewer.figure import Figure
 from onbeat.viewer.stage import TO_LINEAR, TO_SRGB, Stage, linear, paint_backdrop, shadow_map
 
-BLEND, HOLLOW, SHADE = 0.05, 0.1, 0.12
+BLEND, HOLLOW, SHADE = 0.05, 0.09, 0.1
 """Metres: how far normals run together, and how far off the skin ambient and key light look for what hides them."""
 
 
@@ -60,19 +61,39 @@ def render_frame(
 
 
 @numba.njit(cache=True)
-def _near(cones: Array, px: float, py: float, pz: float, reach: float, found: Ints) -> int:
+def _neighbours(cones: Array, reach: float) -> tuple[Ints, Ints]:
+    """(N, N) for each cone the cones that come within ``reach`` metres of its skin, and (N,) how many."""
+    count = len(cones)
+    found = np.zeros((count, count), np.int64)
+    many = np.zeros(count, np.int64)
+    for which in range(count):
+        # Balls along the cone hold it; the more there are, the closer they fit.
+        apart = cones[which, LENGTH] / 6
+        most = max(cones[which, RADIUS], cones[which, RADIUS_B]) + apart / 2 + reach
+        for i in range(count):
+            for ball in range(7):
+                x = cones[which, AX] + ball * apart * cones[which, NX]
+                y = cones[which, AY] + ball * apart * cones[which, NY]
+                z = cones[which, AZ] + ball * apart * cones[which, NZ]
+                if gap(cones, i, x, y, z, most) < most:
+                    found[which, many[which]] = i
+                    many[which] += 1
+                    break
+    return found, many
+
+
+@numba.njit(cache=True)
+def _near(cones: Array, among: Ints, px: float, py: float, pz: float, reach: float, found: Ints) -> int:
     """Put the numbers of all cones whose ball lies within ``reach`` metres of a point in ``found``; how many."""
     count = 0
-    for i in range(len(cones)):
-        cone = cones[i]
-        half = 0.5 * cone[LENGTH]
-        x = px - cone[AX] - half * cone[NX]
-        y = py - cone[AY] - half * cone[NY]
-        z = pz - cone[AZ] - half * cone[NZ]
-        far = half + max(cone[RADIUS], cone[RADIUS_B]) + reach
-        if x * x + y * y + z * z < far * far:
-            found[count] = i
-            count += 1
+    for i in among:
+        half = 0.5 * cones[i, LENGTH]
+        x = px - cones[i, AX] - half * cones[i, NX]
+        y = py - cones[i, AY] - half * cones[i, NY]
+        z = pz - cones[i, AZ] - half * cones[i, NZ]
+        far = half + max(cones[i, RADIUS], cones[i, RADIUS_B]) + reach
+        found[count] = i
+        count += x * x + y * y + z * z < far * far
     return count
 
 
@@ -83,8 +104,8 @@ def _skin(
     """The normal at a point of cone ``which``, run together with those of its neighbours within a few centimetres."""
     sx, sy, sz = 0.0, 0.0, 0.0
     for i in near:
-        if adjacent[which, i] and gap(cones[i], px, py, pz, 1.2 * BLEND) < 1.2 * BLEND:
-            off, nx, ny, nz = outward(cones[i], px, py, pz)
+        if adjacent[which, i] and gap(cones, i, px, py, pz, 1.2 * BLEND) < 1.2 * BLEND:
+            off, nx, ny, nz = outward(cones, i, px, py, pz)
             if off < BLEND:
                 weight = (1.0 - max(off, 0.0) / BLEND) ** 2
                 sx += weight * nx
@@ -92,7 +113,7 @@ def _skin(
                 sz += weight * nz
     long = np.sqrt(sx * sx + sy * sy + sz * sz)
     if long < 1e-6:
-        _, sx, sy, sz = outward(cones[which], px, py, pz)
+        _, sx, sy, sz = outward(cones, which, px, py, pz)
         long = 1.0
     return sx / long, sy / long, sz / long
 
@@ -102,16 +123,25 @@ def _open(cones: Array, near: Ints, px: float, py: float, pz: float, reach: floa
     """0…1: how far a point ``reach`` metres off the skin is from all of the body; what is left of the light there."""
     nearest = reach
     for i in near:
-        nearest = gap(cones[i], px, py, pz, nearest)
+        nearest = gap(cones, i, px, py, pz, nearest)
     return max(nearest, 0.0) / reach
 
 
 @numba.njit(cache=True)
 def _light_on(
-    cones: Array, adjacent: Bools, found: Ints, which: int, px: float, py: float, pz: float, axes: Array, to: Array
+    cones: Array,
+    adjacent: Bools,
+    among: Ints,
+    found: Ints,
+    which: int,
+    px: float,
+    py: float,
+    pz: float,
+    axes: Array,
+    to: Array,
 ) -> tuple[float, float, float]:
     """What a point of the body takes of the key light, of the sky and floor around, and of the rim's glow."""
-    near = found[: _near(cones, px, py, pz, SHADE + SHADE, found)]
+    near = found[: _near(cones, among, px, py, pz, SHADE + SHADE, found)]
     nx, ny, nz = _skin(cones, adjacent, near, which, px, py, pz)
     up = axes[0, 2] * nx + axes[1, 2] * ny + axes[2, 2] * nz
     key = max((nx * to[0] + ny * to[1] + nz * to[2] + 0.15) / 1.15, 0.0)
@@ -125,8 +155,8 @@ def _light_on(
 @numba.njit(cache=True)
 def _shade(
     picture: np.ndarray,
-    depth: Array,
-    nearest: Array,
+    depth: Float32,
+    nearest: NDArray[np.int16],
     cones: Array,
     adjacent: Bools,
     colours: Array,
@@ -143,13 +173,15 @@ def _shade(
     """Colour the figure's pixels; a pixel that several capsules share is their mean, by the points each has."""
     share = 1.0 / (fine * fine)
     found = np.empty(len(cones), np.int64)
+    among, many = _neighbours(cones, SHADE + SHADE)
+    down, across = np.repeat(np.arange(fine), fine), np.arange(fine * fine) % fine
     for row in range(depth.shape[0] // fine):
         for column in range(depth.shape[1] // fine):
             red, green, blue, clear = 0.0, 0.0, 0.0, 1.0
             last = -1
             r, g, b = 0.0, 0.0, 0.0
             for point in range(fine * fine):
-                i, j = row * fine + point // fine, column * fine + point % fine
+                i, j = row * fine + down[point], column * fine + across[point]
                 which = nearest[i, j]
                 if which < 0:
                     continue
@@ -157,7 +189,8 @@ def _shade(
                     x = (origin[0] + (j + 0.5) / fine - cx) / focal
                     y = (cy - origin[1] - (i + 0.5) / fine) / focal
                     z = depth[i, j]
-                    key, around, rim = _light_on(cones, adjacent, found, which, x * z, y * z, z, axes, to)
+                    close = among[which, : many[which]]
+                    key, around, rim = _light_on(cones, adjacent, close, found, which, x * z, y * z, z, axes, to)
                     last = which
                     r = colours[which, 0] * (0.86 * key + 0.46 * around + 0.3 * rim)
                     g = colours[which, 1] * (0.82 * key + 0.49 * around + 0.3 * rim)

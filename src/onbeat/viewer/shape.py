@@ -72,8 +72,7 @@ def _torso(body: Body) -> list[Capsule]:
     top = body.joints.get("neck", chest)
     made = [
         Capsule(left_hip, right_hip, 0.094, 0.094, "hips"),
-        Capsule(hips, chest, 0.104, 0.1, "hips", -0.05, 0.14),
-        Capsule(hips, chest, 0.098, 0.108, "torso"),
+        Capsule(hips, chest, 0.1, 0.108, "torso", -0.09, 1.0),
         Capsule(left_shoulder, right_shoulder, 0.05, 0.05, "torso", 0.06, 0.94),
     ]
     if top != chest:
@@ -82,7 +81,7 @@ def _torso(body: Body) -> list[Capsule]:
         # Out from the waist and the chest to the shoulder, and to the hip: a narrow waist, a broad chest.
         made.append(Capsule(hips, shoulder, 0.088, 0.07, "torso", 0.3, 0.9))
         made.append(Capsule(chest, shoulder, 0.095, 0.062, "torso", 0.1, 0.85))
-        made.append(Capsule(chest, hip, 0.09, 0.088, "torso", 0.3, 0.62))
+        made.append(Capsule(chest, hip, 0.09, 0.088, "torso", 0.3, 0.66))
     return made
 
 

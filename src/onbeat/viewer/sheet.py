@@ -50,12 +50,12 @@ def contact_sheet(motion: Motion, times: Times, columns: int = 6, size: Size = (
 
 
 def png_bytes(picture: np.ndarray) -> bytes:
-    """A picture (H, W, 3) uint8 as a PNG file's bytes, the same for the same picture.
+    r"""A picture (H, W, 3) uint8 as a PNG file's bytes, the same for the same picture.
 
     Examples
     --------
     >>> png_bytes(np.zeros((2, 3, 3), np.uint8))[:4]
-    b'\\x89PNG'
+    b'\x89PNG'
     """
     height, width = picture.shape[:2]
     # Filter 1 of the format: each pixel less its left neighbour, modulo 256; smooth pictures pack well so.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
-from onbeat._shapes import Array, Positions
+from onbeat._shapes import Array, Float32, Positions
 from onbeat.viewer.camera import Camera, Size
 
 CELL = 0.0125
@@ -65,7 +65,7 @@ TO_LINEAR = linear(np.arange(256))
 """(256,) linear light of sRGB 0…255."""
 
 
-def shadow_map(ends: Positions, radii: Array, stage: Stage) -> tuple[Array, tuple[float, float]]:
+def shadow_map(ends: Positions, radii: Array, stage: Stage) -> tuple[Float32, tuple[float, float]]:
     """How much of the light each cell of the floor misses, 0…1, and where in metres the first cell lies."""
     to = stage.towards_light
     height = np.maximum(ends[..., 2] - stage.ground, 0.0)
@@ -82,7 +82,7 @@ def shadow_map(ends: Positions, radii: Array, stage: Stage) -> tuple[Array, tupl
 
 @numba.njit(cache=True)
 def _cast_shadow(
-    shadow: Array, origin: tuple[float, float], ends: Positions, radii: Array, ground: float, to: Array
+    shadow: Float32, origin: tuple[float, float], ends: Positions, radii: Array, ground: float, to: Array
 ) -> None:
     """Darken the cells that each capsule hides from the light; the edge widens with the height of what hides it."""
     rows, columns = shadow.shape
@@ -128,7 +128,9 @@ def _cast_shadow(
                     shadow[row, column] = max(shadow[row, column], cover)
 
 
-def paint_backdrop(camera: Camera, size: Size, stage: Stage, shadow: Array, origin: tuple[float, float]) -> np.ndarray:
+def paint_backdrop(
+    camera: Camera, size: Size, stage: Stage, shadow: Float32, origin: tuple[float, float]
+) -> np.ndarray:
     """The picture (H, W, 3) without the figure: backdrop, floor, shadow."""
     colours = np.array([linear(c) for c in (stage.floor, stage.tile, stage.backdrop, stage.horizon)])
     picture = np.empty((size[1], size[0], 3), np.uint8)
@@ -147,7 +149,7 @@ def _tiles(x: float, wide: float) -> float:
 
 
 @numba.njit(cache=True)
-def _missing(shadow: Array, column: float, row: float) -> float:
+def _missing(shadow: Float32, column: float, row: float) -> float:
     """The shadow between four cells."""
     i, j = int(np.floor(row)), int(np.floor(column))
     if i < 0 or j < 0 or i + 1 >= shadow.shape[0] or j + 1 >= shadow.shape[1]:
@@ -167,7 +169,7 @@ def _paint(
     cx: float,
     cy: float,
     colours: Array,
-    shadow: Array,
+    shadow: Float32,
     origin: tuple[float, float],
     to_srgb: np.ndarray,
 ) -> None:

@@ -61,7 +61,7 @@ class Strip:
 
 
 def _draw(
-    song: Song | None, level: Array | None, stops: Times, duration: float, height: int, width: int, ink: Array
+    song: Song | None, level: Array | None, stops: Times, duration: float, height: int, width: int, ink: np.ndarray
 ) -> np.ndarray:
     picture = np.empty((height, width, 3), np.uint8)
     picture[:] = PAPER
@@ -80,7 +80,7 @@ def _draw(
 
 
 def _ticks(
-    picture: np.ndarray, times: Times, duration: float, top: int, bottom: int, colour: Array, thick: int
+    picture: np.ndarray, times: Times, duration: float, top: int, bottom: int, colour: np.ndarray, thick: int
 ) -> None:
     """Upright marks at times."""
     width = picture.shape[1]

@@ -6,7 +6,8 @@ import contextlib
 import importlib
 import os
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from onbeat._shapes import Float32, Times
 from onbeat.errors import MissingExtraError, OnbeatError
 from onbeat.motion import Motion
 from onbeat.music.song import Song
-from onbeat.viewer.camera import CameraPath, Size, follow
+from onbeat.viewer.camera import Size, follow
 from onbeat.viewer.figure import Figure, ground_height
 from onbeat.viewer.raster import render_frame
 from onbeat.viewer.sound import SoundTrack
@@ -78,8 +79,8 @@ def _av() -> Any:
 
 
 @contextlib.contextmanager
-def _whole_file(path: Path) -> Iterator[Path]:
-    """A temporary file beside ``path`` that takes its name at the end, or is gone if anything, Ctrl-C too, went wrong."""
+def _whole_file(path: Path) -> Generator[Path]:
+    """A file beside ``path`` that takes its name at the end, or is gone if anything (Ctrl-C too) went wrong."""
     temporary: Path | None = None
     try:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
@@ -126,8 +127,6 @@ def _encode(
 
 
 def _video_stream(container: Any, fps: float, size: Size) -> Any:
-    from fractions import Fraction
-
     rate = Fraction(fps).limit_denominator(1001)
     # One thread: the coder's bytes depend on how many it has.
     options = {"crf": "19", "preset": "veryfast", "threads": "1", "x264-params": "keyint=60"}
@@ -143,7 +142,6 @@ def pictures(motion: Motion, fps: float, size: Size, strip: Strip) -> Iterator[n
     figure = Figure.of(motion.skeleton)
     ground = ground_height(figure, motion)
     count = max(1, round(motion.duration * fps))
-    path: CameraPath | None = None
     poses = motion.at(np.arange(count) / fps).replace(fps=fps)
     # The strip takes the lower part: the dancer stands in the middle of what is left.
     path = follow(poses, figure, ground, size=size, shift=STRIP / 2)
