@@ -9,18 +9,18 @@ from scipy.ndimage import maximum_filter1d
 
 from onbeat._shapes import Array, Float32, Ints, Times
 from onbeat.music.bars import downbeat_log_odds, find_downbeats
-from onbeat.music.chords import chord_change
+from onbeat.music.chords import chord_change, new_harmony
 from onbeat.music.decode import decode_beats
-from onbeat.music.hearing import Progress, hear
+from onbeat.music.hearing import Hearing, Progress, hear
 from onbeat.music.intensity import intensity, normalised
-from onbeat.music.observation import activation, observe
+from onbeat.music.observation import beat_log_odds, unit_power
 from onbeat.music.onsets import onset_strength
 from onbeat.music.song import Song
 from onbeat.music.tempo import beat_space, tempo_of
 
 NAME = "barpointer"
-STEADINESS = 100.0  # cost of a change of tempo, per unit of its ratio
-PRIOR_WEIGHT = 1.0  # per second
+STEADINESS = 60.0  # cost of a change of tempo, per unit of its ratio
+PRIOR_WEIGHT = 3.0  # per second
 DELAY = 0.0  # [s] of the onset strength's peak behind the onset, calibrated on clicks and drums
 CUE_WEIGHTS = np.array([1.0, 0.6, 0.3])  # chord change, bass accent, accent
 
@@ -40,6 +40,12 @@ def refine(beats: Ints, strength: Array, rate: float) -> Times:
     return np.maximum.accumulate(np.array(peaks)) / rate
 
 
+def _harmony_at_onset_frames(hearing: Hearing) -> Array:
+    harmony = new_harmony(hearing.tones, hearing.tone_rate)
+    times = np.arange(len(hearing.bands)) / hearing.onset_rate
+    return np.interp(times, np.arange(len(harmony)) / hearing.tone_rate, harmony)
+
+
 def accents(flux: Float32, beats: Ints) -> Array:
     """Highest flux of each band within two frames of each beat: (B, bands)."""
     return maximum_filter1d(flux, 5, axis=0)[np.clip(beats, 0, len(flux) - 1)].astype(np.float64)
@@ -49,9 +55,9 @@ def listen_barpointer(blocks: Iterable[Float32], rate: int, progress: Progress |
     """Hear a song given as mono blocks."""
     hearing = hear(blocks, rate, progress)
     flux, strength = onset_strength(hearing)
-    strength = strength / max(float(np.sqrt((strength**2).mean())), 1e-9)
-    space = beat_space(hearing.onset_rate, STEADINESS)
-    frames = decode_beats(observe(activation(strength)), space, PRIOR_WEIGHT)
+    strength = unit_power(strength)
+    log_odds = beat_log_odds(strength, unit_power(_harmony_at_onset_frames(hearing)))
+    frames = decode_beats(log_odds, beat_space(hearing.onset_rate, STEADINESS), PRIOR_WEIGHT)
     times = refine(frames, strength, hearing.onset_rate) - DELAY
     inside = (times >= 0.0) & (times < hearing.duration)
     frames, times = frames[inside], times[inside]

@@ -7,9 +7,23 @@ import numpy as np
 from onbeat._shapes import Array, Float32, Times
 
 BASS_TONES = 38  # semitones from A1 up to 500 Hz: bass sounds and their overtones (Shiratori 2006, III-B)
+NEARBY = 0.25  # [s] before and after a moment, in which its harmony is compared
+LEAST_CHANGE = 0.15  # that counts as a change of 1: a drum solo has none
 
 
-def between_beats(frames: Array, rate: float, beats: Times) -> Array:
+def new_harmony(tones: Float32, rate: float) -> Array:
+    """How much new harmony under 500 Hz begins at each frame: the quarter second after against the one before, (N,)."""
+    standing = prominence(tones)[:, :BASS_TONES]
+    reach = max(round(NEARBY * rate), 1)
+    sums = np.concatenate([np.zeros((1, standing.shape[1])), np.cumsum(standing, axis=0, dtype=np.float64)])
+    frame, last = np.arange(len(standing)), len(standing)
+    # The frame itself is left out: its window holds sound of both sides.
+    after = sums[np.minimum(frame + reach + 1, last)] - sums[np.minimum(frame + 1, last)]
+    before = sums[frame] - sums[np.maximum(frame - reach, 0)]
+    return np.maximum(after - before, 0.0).sum(axis=1) / reach
+
+
+def between_beats(frames: Array | Float32, rate: float, beats: Times) -> Array:
     """Mean of the frames from each beat to the next (the last: as long as the one before): (B, bins).
 
     >>> between_beats(np.arange(4.0)[:, None], 1.0, np.array([0.0, 2.0])).ravel().tolist()
@@ -49,6 +63,5 @@ def chord_change(tones: Float32, rate: float, beats: Times) -> Array:
     distance = 1.0 - (chroma[1:] * chroma[:-1]).sum(axis=1)
     sounding = slices.sum(axis=1) > 0.05 * np.median(slices.sum(axis=1))
     change = np.where(sounding[1:], 0.5 * (new + distance), 0.0)
-    return np.clip(
-        np.concatenate([[0.0], change]) / max(np.percentile(change, 95), 0.15) if len(change) else np.zeros(1), 0, 1
-    )
+    usual = max(float(np.percentile(change, 95)), LEAST_CHANGE) if len(change) else 1.0
+    return np.clip(np.concatenate([[0.0], change]) / usual, 0.0, 1.0)

@@ -50,7 +50,7 @@ class SpectrumStream:
         if not count:
             return np.zeros((0, window // 2 + 1), np.float32)
         frames = np.lib.stride_tricks.sliding_window_view(signal, window)[:: self._hop][:count]
-        spectrum = rfft(frames * self._hann, axis=1)
+        spectrum = np.asarray(rfft(frames * self._hann, axis=1))
         scale = np.float32((2.0 / self._hann.sum()) ** 2)
         return np.asarray((spectrum.real**2 + spectrum.imag**2) * scale, dtype=np.float32)
 
