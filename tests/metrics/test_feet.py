@@ -53,6 +53,15 @@ def test_a_foot_that_turns_on_its_heel_does_not_skate(skeleton: Skeleton) -> Non
     assert feet.contact_speeds(motion, both(motion)) == pytest.approx(0.0)
 
 
+def test_a_sliding_body_cannot_hide_in_the_air(skeleton: Skeleton) -> None:
+    motion = sliding(skeleton, 0.4)
+    scores = feet.evaluate(motion, ~both(motion), np.array([[1.0, 2.0]]))
+    assert scores["skate_joins"] is None
+    assert scores["support_joins"] == pytest.approx(0.4)
+    assert scores["support_elsewhere"] == pytest.approx(0.4)
+    assert scores["support_ratio"] == pytest.approx(1.0)
+
+
 def test_joins_are_measured_apart_and_against_the_source(skeleton: Skeleton) -> None:
     motion = sliding(skeleton, 0.1)
     path = motion.root_positions.copy()

@@ -9,6 +9,7 @@ def test_near_joins_takes_both_sides_and_the_edges() -> None:
     times = np.arange(0, 3, 0.1)
     inside = near_joins(times, np.array([1.0, 1.2]), 0.2)
     assert times[inside].round(6).tolist() == [0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4]
+    assert times[near_joins(times, np.array([[0.25, 0.4], [2.9, 9.0]]))].round(6).tolist() == [0.3, 0.4, 2.9]
     assert not near_joins(times, np.zeros(0)).any()
     assert near_joins(np.zeros(0), np.array([1.0])).shape == (0,)
 

@@ -93,6 +93,7 @@ _ROWS = (
     ("intensity", "intensity_spearman", "intensity, Spearman's ρ", ".2f", "", ""),
     ("feet", "skate", "foot speed in contact (m/s)", ".3f", "", ""),
     ("feet", "skate_p95", "… its 95th percentile", ".3f", "", ""),
+    ("feet", "support", "speed of the slower foot (m/s)", ".3f", "", ""),
     ("feet", "over_reach_m", "legs beyond their reach (m)", ".3f", "", ""),
     ("smoothness", "jerk_hands", "jerk of the hands (m/s³)", ".0f", "", ""),
     ("smoothness", "jerk_feet", "jerk of the feet", ".0f", "", ""),

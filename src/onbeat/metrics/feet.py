@@ -16,6 +16,8 @@ Metrics
 -------
 * :func:`contact_speeds` : skate, the full tangential speed of a foot in contact, both horizontal components. A foot
   that rolls over its ball or turns on its heel does not skate: the slower one of ankle and toe counts.
+* :func:`support_speeds` : the floor speed of the slower foot, whoever says what is a contact. Mostly one foot stands,
+  so a body that slides as a whole cannot hide by not calling it contact.
 * :func:`leg_extensions` : hip to ankle over the length of thigh and shin. Above 1 a leg is torn, at 1 it is straight:
   a leg that cannot reach its place shows as one of them.
 * :func:`foot_accelerations` : of ankles and toes in m/s², in contact or not: feet that are put right too fast.
@@ -54,8 +56,16 @@ def contact_speeds(motion: Motion, contacts: Bools, body: Body | None = None) ->
     """(F, 2) m/s along the floor of the left and right foot, the slower of ankle and toe; nan where not in contact."""
     validate(motion, contacts)
     body = Body.of(motion.skeleton) if body is None else body
-    speeds = [_floor_speeds(motion, _foot_joints(body, side)).min(axis=1) for side in _SIDES]
-    return np.where(contacts, np.stack(speeds, axis=1), np.nan)
+    return np.where(contacts, _feet_speeds(motion, body), np.nan)
+
+
+def support_speeds(motion: Motion, body: Body | None = None) -> Array:
+    """(F,) m/s along the floor of the slower foot, the slower of ankle and toe, in contact or not."""
+    return _feet_speeds(motion, Body.of(motion.skeleton) if body is None else body).min(axis=1)
+
+
+def _feet_speeds(motion: Motion, body: Body) -> Array:
+    return np.stack([_floor_speeds(motion, _foot_joints(body, side)).min(axis=1) for side in _SIDES], axis=1)
 
 
 def _floor_speeds(motion: Motion, joints: list[int]) -> Array:
@@ -96,7 +106,7 @@ def foot_accelerations(motion: Motion, body: Body | None = None) -> tuple[Times,
 def evaluate(
     motion: Motion,
     contacts: Bools,
-    joins: Times,
+    joins: Array,
     source: Sequence[tuple[Motion, Bools]] = (),
     window: float = WINDOW,
 ) -> dict[str, float | None]:
@@ -106,39 +116,41 @@ def evaluate(
     ----------
     motion : the dance.
     contacts : (F, 2) where its feet bear on the floor.
-    joins : (K,) seconds of its joins; none means all of it is elsewhere.
+    joins : (K,) seconds of its joins, or (K, 2) windows; none means all of it is elsewhere.
     source : the clips it is made of with their contacts, or the stretches of them that it shows.
     window : seconds either side of a join.
 
     Returns
     -------
-    ``skate_<where>`` and ``skate_<where>_p95`` (median and 95th percentile, m/s), ``acceleration_<where>`` (mean, m/s²)
-    for ``joins``, ``elsewhere`` and ``source``; ``skate_ratio``, ``skate_p95_ratio`` and ``acceleration_ratio``, joins
-    over source (over elsewhere where no source is given); ``extension_max``, ``extension_source_max``,
-    ``over_reach_m`` (metres beyond the leg), ``straight_part`` and ``straight_source_part`` (of all leg-frames).
-    None where there is nothing to measure.
+    For each place ``joins``, ``elsewhere`` and ``source``: ``skate_<place>`` and ``skate_<place>_p95`` (median and 95th
+    percentile, m/s), ``support_<place>`` (mean, m/s) and ``acceleration_<place>`` (mean, m/s²). ``skate_ratio``,
+    ``skate_p95_ratio``, ``support_ratio`` and ``acceleration_ratio``: joins over source, or over elsewhere where no
+    source is given. ``extension_max``, ``extension_source_max``, ``over_reach_m`` (metres beyond the leg),
+    ``straight_part`` and ``straight_source_part`` (of all leg-frames). None where there is nothing to measure.
     """
-    speeds = contact_speeds(motion, contacts)
+    speeds, support = contact_speeds(motion, contacts), support_speeds(motion)
     inside = near_joins(motion.times, joins, window)
     times, accelerations = foot_accelerations(motion)
     jolts = near_joins(times, joins, window)
     places = {
-        "joins": (speeds[inside], accelerations[jolts]),
-        "elsewhere": (speeds[~inside], accelerations[~jolts]),
+        "joins": (speeds[inside], support[inside], accelerations[jolts]),
+        "elsewhere": (speeds[~inside], support[~inside], accelerations[~jolts]),
         "source": (
             _pool([contact_speeds(clip, touching) for clip, touching in source]),
+            _pool([support_speeds(clip) for clip, _ in source]),
             _pool([foot_accelerations(clip)[1] for clip, _ in source]),
         ),
     }
     result: dict[str, float | None] = {}
-    for place, (skate, acceleration) in places.items():
+    for place, (skate, slower, acceleration) in places.items():
         result[f"skate_{place}"] = statistic(skate, "median")
         result[f"skate_{place}_p95"] = statistic(skate, "p95")
+        result[f"support_{place}"] = statistic(slower, "mean")
         result[f"acceleration_{place}"] = statistic(acceleration, "mean")
     against = "source" if source else "elsewhere"
-    result["skate_ratio"] = ratio(result["skate_joins"], result[f"skate_{against}"])
-    result["skate_p95_ratio"] = ratio(result["skate_joins_p95"], result[f"skate_{against}_p95"])
-    result["acceleration_ratio"] = ratio(result["acceleration_joins"], result[f"acceleration_{against}"])
+    for name, suffix in (("skate", ""), ("skate", "_p95"), ("support", ""), ("acceleration", "")):
+        joined, other = result[f"{name}_joins{suffix}"], result[f"{name}_{against}{suffix}"]
+        result[f"{name}{suffix}_ratio"] = ratio(joined, other)
     return result | _reach(motion, [clip for clip, _ in source])
 
 

@@ -7,7 +7,7 @@ Conventions
 -----------
 Joint paths are in metres in the world. They are read at ``RATE`` through a cubic spline and smoothed by a Gaussian of
 ``SMOOTHING`` seconds before they are differentiated, so that 30, 60 and 120 frames a second give the same jerk.
-Joins are seconds on the dance's clock; a window is everything within ``window`` seconds of one.
+Joins are seconds on the dance's clock; a window is everything within ``window`` seconds of one, or given as a span.
 
 Metrics
 -------
@@ -102,14 +102,14 @@ def joint_groups(body: Body) -> dict[str, Ints]:
 
 
 def evaluate(
-    motion: Motion, joins: Times, source: Sequence[Motion] = (), window: float = WINDOW
+    motion: Motion, joins: Array, source: Sequence[Motion] = (), window: float = WINDOW
 ) -> dict[str, float | None]:
     """Jerk inside the windows around joins, elsewhere, and in the source.
 
     Parameters
     ----------
     motion : the dance.
-    joins : (K,) seconds of its joins; none means all of it is elsewhere.
+    joins : (K,) seconds of its joins, or (K, 2) windows; none means all of it is elsewhere.
     source : the clips it is made of, or the stretches of them that it shows.
     window : seconds either side of a join.
 
