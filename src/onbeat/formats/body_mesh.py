@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from onbeat._shapes import Array, Ints, Positions
+from onbeat._shapes import Ints, Positions
 from onbeat.errors import BodyError
 from onbeat.motion import Body, Skeleton
 
@@ -96,13 +96,13 @@ def _capsule(
     u = np.cross(along, helper)
     u /= np.linalg.norm(u)
     v = np.cross(along, u)
-    around: Array = np.arange(SIDES) * (2 * np.pi / SIDES)
-    ring: Positions = np.cos(around)[:, None] * u + np.sin(around)[:, None] * v
-    slopes: Array = np.pi * np.array([-90, -60, -30, 0, 0, 30, 60, 90]) / 180
-    normals: Positions = np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along
+    around = np.linspace(0, 2 * np.pi, SIDES, endpoint=False)
+    ring = np.asarray(np.cos(around)[:, None] * u + np.sin(around)[:, None] * v, np.float64)
+    slopes = np.asarray(np.deg2rad(np.array([-90.0, -60, -30, 0, 0, 30, 60, 90])), np.float64)
+    normals = np.asarray(np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along, np.float64)
     radius = np.repeat([radius_a, radius_b], 4)[:, None, None]
     centre = np.repeat(np.stack((start, end)), 4, axis=0)[:, None]
-    vertices: Positions = (centre + radius * normals).reshape(-1, 3)
+    vertices = (centre + radius * normals).reshape(-1, 3)
     return vertices, normals.reshape(-1, 3), _tube(len(slopes))
 
 
