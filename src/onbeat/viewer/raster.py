@@ -182,13 +182,13 @@ def _shade(
             r, g, b = 0.0, 0.0, 0.0
             for point in range(fine * fine):
                 i, j = row * fine + down[point], column * fine + across[point]
-                which = nearest[i, j]
+                which = int(nearest[i, j])
                 if which < 0:
                     continue
                 if which != last:
                     x = (origin[0] + (j + 0.5) / fine - cx) / focal
                     y = (cy - origin[1] - (i + 0.5) / fine) / focal
-                    z = depth[i, j]
+                    z = float(depth[i, j])
                     close = among[which, : many[which]]
                     key, around, rim = _light_on(cones, adjacent, close, found, which, x * z, y * z, z, axes, to)
                     last = which

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from onbeat.motion import Body, Skeleton
 from onbeat.motion.body import chain_length
 
@@ -49,7 +51,7 @@ def capsules(skeleton: Skeleton, body: Body | None) -> list[Capsule]:
     if body is None:
         return _bones(skeleton)
     size = min(max(body.leg_length / ADULT_LEG, 0.2), 3.0)
-    made = [*_torso(body), *_head(body, size)]
+    made = [*_torso(body, size), *_head(body, size)]
     for side in ("left", "right"):
         made += [*_arm(body, side), *_hand(body, side, size), *_leg(body, side, size), *_foot(body, side, size)]
     return [c._replace(radius_a=c.radius_a * size, radius_b=c.radius_b * size) for c in made]
@@ -65,14 +67,18 @@ def _bones(skeleton: Skeleton) -> list[Capsule]:
     return made
 
 
-def _torso(body: Body) -> list[Capsule]:
+def _torso(body: Body, size: float) -> list[Capsule]:
     hips, chest = body["hips"], body["chest"]
     left_shoulder, right_shoulder = body["left_shoulder"], body["right_shoulder"]
     left_hip, right_hip = body["left_hip"], body["right_hip"]
     top = body.joints.get("neck", chest)
+    # Files differ in how far their root lies above the hip joints; the shirt's hem does not follow it.
+    rest = body.skeleton.rest_positions
+    drop = float(np.linalg.norm((rest[left_hip] + rest[right_hip]) / 2 - rest[hips]))
+    hem = (0.07 * size - drop) / max(_length(body, hips, chest), 0.1 * size)
     made = [
         Capsule(left_hip, right_hip, 0.094, 0.094, "hips"),
-        Capsule(hips, chest, 0.1, 0.108, "torso", -0.09, 1.0),
+        Capsule(hips, chest, 0.098, 0.108, "torso", hem, 1.0),
         Capsule(left_shoulder, right_shoulder, 0.05, 0.05, "torso", 0.06, 0.94),
     ]
     if top != chest:
@@ -90,7 +96,7 @@ def _head(body: Body, size: float) -> list[Capsule]:
     head = body.joints.get("head", base)
     if head == base:
         return [_skull(body["hips"], base, 0.28 * size, _length(body, body["hips"], base), size)]
-    neck = [Capsule(base, head, 0.09, 0.056, "torso", 0.0, 0.4), Capsule(base, head, 0.055, 0.05, "head", 0.3, 1.0)]
+    neck = [Capsule(base, head, 0.084, 0.056, "torso", 0.0, 0.4), Capsule(base, head, 0.055, 0.05, "head", 0.3, 1.0)]
     tips = [child for child in body.skeleton.children[head] if body.skeleton.bone_lengths[child] > 0.04 * size]
     if tips:
         above = float(body.skeleton.bone_lengths[tips[0]])
