@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from onbeat.motion.skeleton import Skeleton
 
@@ -94,6 +95,7 @@ class Build:
         """Metres from the ankle back to the heel."""
         return 0.03 * self.height
 
+    @cached_property
     def skeleton(self) -> Skeleton:
         """The skeleton at rest: standing with arms out to the sides, palms down, facing +Y."""
         trunk = self.height - self.hip_drop - self.leg - self.ankle_height  # waist to crown

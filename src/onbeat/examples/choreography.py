@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 
@@ -14,8 +15,8 @@ from onbeat.examples.footwork import LANDED, LIFT_OFF, FootPlan
 from onbeat.examples.limbs import arm_direction
 from onbeat.examples.paths import Keys
 
-LEAD = 1.0
-"""Beats from the start of a clip to its first keypose."""
+LEAD = 2.0
+"""Beats from the start of a clip, at rest, to its first keypose, and from its last to its end, at rest."""
 TOE_OUT = np.radians(8.0)
 _HOME = arm_direction(np.array([0.2, 0.6, -0.5]))  # arms grow and shrink about this
 
@@ -27,9 +28,9 @@ class Score:
     Parameters
     ----------
     period, duration : seconds of a beat and of the clip.
-    hands : left and right, 7 values a key: arc outward and upward, reach, swivel, roll, flex, deviate.
+    hands : left and right, 8 values a key: arc outward and upward, reach, swivel, roll, flex, deviate; 1 in a clap.
     trunk : the 11 values of a ``Pose``.
-    pelvis : x, y in metres and yaw in radians.
+    pelvis : x, y in metres, yaw in radians and the share of the weight on the right foot.
     feet : left and right.
     floor : bounce and hip circle, shares of the leg's length.
     keyposes : seconds.
@@ -50,7 +51,7 @@ class _Foot:
     """A foot while the steps are read: its events so far, the last one being where it is."""
 
     swings: list[tuple[float, float]]
-    rows: list[tuple[float, float, float, float, float, float]]
+    rows: list[tuple[float, ...]]
 
 
 @dataclass
@@ -62,7 +63,7 @@ class _Stage:
     yaw: float = 0.0
     weight: float = 0.5
     feet: dict[str, _Foot] = field(default_factory=lambda: {})
-    pelvis: list[tuple[float, float, float, float]] = field(default_factory=lambda: [])
+    pelvis: list[tuple[float, float, float, float, float]] = field(default_factory=lambda: [])
 
     def world(self, x: float, y: float) -> Array:
         """A point of the figure (shares of the leg's length) on the floor, in metres."""
@@ -73,7 +74,7 @@ class _Stage:
         """The pelvis between the feet, over the right foot by ``weight``, on a beat."""
         left, right = (np.array(self.feet[foot].rows[-1]) for foot in "LR")
         spot = (1 - weight) * left + weight * right
-        self.pelvis.append((beat, spot[0], spot[1], (left[3] + right[3]) / 2))
+        self.pelvis.append((beat, spot[0], spot[1], (left[3] + right[3]) / 2, weight))
 
 
 def write_score(figures: Sequence[Figure], dancer: Dancer, period: float, rng: np.random.Generator) -> Score:
@@ -82,9 +83,9 @@ def write_score(figures: Sequence[Figure], dancer: Dancer, period: float, rng: n
     stage = _begin(dancer)
     for figure, start in zip(figures, starts[:-1], strict=True):
         _walk(stage, figure, float(start), dancer)
-    stage.stand(float(starts[-1]) + 1.0, 0.5)
+    stage.stand(float(starts[-1]) + LEAD, 0.5)
     keyposes = _keypose_beats(figures, starts)
-    beats = starts[-1] + LEAD + 1.0
+    beats = starts[-1] + 2 * LEAD
     return Score(
         period=period,
         duration=float(beats * period),
@@ -101,7 +102,7 @@ def _begin(dancer: Dancer) -> _Stage:
     stage = _Stage(unit=dancer.build.leg * dancer.stride)
     for foot, side in (("L", -1.0), ("R", 1.0)):
         x, y = stage.world(side * STANCE, 0.0)
-        stage.feet[foot] = _Foot([(-9.0, -8.0)], [(float(x), float(y), 0.0, -side * TOE_OUT, 0.0, 0.0)])
+        stage.feet[foot] = _Foot([(-9.0, -8.0)], [(float(x), float(y), 0.0, -side * TOE_OUT, 0.0, 0.0, True)])
     stage.stand(-LEAD - 1.0, 0.5)
     return stage
 
@@ -114,6 +115,9 @@ def _walk(stage: _Stage, figure: Figure, start: float, dancer: Dancer) -> None:
         landing = [step for step in figure.steps if step.beat == beat]
         for step in landing:
             support = 0.5 - over if step.foot == "R" else 0.5 + over
+            if step.kind == "shift":
+                stage.weight = 1.0 - support
+                continue
             if abs(stage.weight - support) > 0.1:
                 stage.stand(start + beat - LIFT_OFF + 0.06, support)
             _step(stage, step, start, dancer)
@@ -128,22 +132,23 @@ def _step(stage: _Stage, step: Step, start: float, dancer: Dancer) -> None:
     side = -1.0 if step.foot == "L" else 1.0
     x, y = stage.world(step.x, step.y)
     foot = stage.feet[step.foot]
-    height, pitch = stage.unit * step.z, 0.0
-    if step.kind == "heel":
-        pitch = 0.42
-    elif step.kind == "air":
-        pitch = -0.35
+    pitch = {"heel": 0.42, "air": -0.35}.get(step.kind, 0.0)
+    height = stage.unit * step.z if step.kind == "air" else 0.0
+    if step.kind == "heel":  # the ball of the foot hangs where the heel touches the floor
+        build = dancer.build
+        height = (build.ball_forward + build.heel_back) * np.sin(pitch) - build.ball_height * (1 - np.cos(pitch))
     far = float(np.hypot(x - foot.rows[-1][0], y - foot.rows[-1][1]))
     clearance = (0.030 + 0.06 * min(far, 0.6)) * dancer.build.height / 1.7 * (0.6 + 0.4 * dancer.bounce)
+    clearance += 0.0 if step.kind == "air" else stage.unit * step.z
     foot.swings.append((start + step.beat - LIFT_OFF, start + step.beat - LANDED))
     yaw = stage.yaw + np.radians(step.turn) - side * TOE_OUT
-    foot.rows.append((float(x), float(y), height, yaw, pitch, clearance))
+    foot.rows.append((float(x), float(y), height, yaw, pitch, clearance, step.kind != "air"))
 
 
 def _plan(foot: _Foot, period: float) -> FootPlan:
     swings = (np.array(foot.swings) + LEAD) * period
     rows = np.array(foot.rows)
-    return FootPlan(swings[:, 0], swings[:, 1], rows[:, :3], rows[:, 3], rows[:, 4], rows[:, 5])
+    return FootPlan(swings[:, 0], swings[:, 1], rows[:, :3], rows[:, 3], rows[:, 4], rows[:, 5], rows[:, 6] > 0)
 
 
 def _keypose_beats(figures: Sequence[Figure], starts: Array) -> Array:
@@ -157,19 +162,21 @@ def _in_order(rows: Array, period: float) -> Keys:
     return Keys((rows[keep, 0] + LEAD) * period, rows[keep, 1:])
 
 
+@cache
 def _hand(name: str, dancer: Dancer) -> Array:
     """A named place as this dancer takes it."""
     place = PLACES[name]
     build = dancer.build
-    if name.startswith("clap"):
-        palm = 0.024 * build.height
-        out = -(build.shoulder_half_width - palm) / (build.upper_arm + build.forearm)
-        point, scale, lift = np.array([out, place.front, place.up]), 1.0, 0.0
+    if name.startswith("clap") or name == "waist":  # hands that meet, or lie on the body, do so on every body
+        aside = 0.024 if name != "waist" else 0.125
+        out = (aside * build.height - build.shoulder_half_width) / (build.upper_arm + build.forearm)
+        point, scale, lift, clap = np.array([out, place.front, place.up]), 1.0, 0.0, 1.0
     else:
         point, scale, lift = np.array(place[:3]), dancer.amplitude, dancer.lift
+        clap = 0.0
     arcs = _HOME + scale * (arm_direction(point) - _HOME) + np.array([0.0, lift])
     reach = min(float(np.linalg.norm(point)), 0.97)
-    return np.array([*arcs, reach, place.swivel, place.roll, place.flex, place.deviate])
+    return np.array([*arcs, reach, place.swivel, place.roll, place.flex, place.deviate, clap])
 
 
 def _pair(names: str, dancer: Dancer) -> Array:
@@ -187,10 +194,11 @@ def _hands(
             beats.append(float(start + beat))
             values.append(_pair(figure.hands[beat], dancer))
         through |= {float(start + beat): _pair(names, dancer) for beat, names in figure.through.items()}
-    beats += [float(starts[-1]), float(starts[-1]) + 1.0]
+    beats += [float(starts[-1]), float(starts[-1]) + LEAD]
     values += [_pair(figures[-1].hands[figures[-1].keyposes[0]], dancer), rest]
     path = np.array(values)
-    path[2:, :, :3] += rng.normal(0.0, 1.0, path[2:, :, :3].shape) * np.array([0.03, 0.03, 0.012])
+    varied = rng.normal(0.0, 1.0, path[2:, :, :3].shape) * np.array([0.03, 0.03, 0.012])
+    path[2:, :, :3] += varied * (1.0 - path[2:, :, 7:])  # hands that meet must meet
     jitter = rng.normal(0.0, 0.006, len(beats))
     bulges = np.zeros_like(path)
     for beat, via in through.items():
@@ -207,7 +215,7 @@ def _trunk(figures: Sequence[Figure], starts: Array, period: float, rng: np.rand
             beats.append(float(start + beat))
             poses.append(figure.trunk[beat])
     last = figures[-1].trunk[min(figures[-1].trunk)]
-    beats += [float(starts[-1]), float(starts[-1]) + 1.0]
+    beats += [float(starts[-1]), float(starts[-1]) + LEAD]
     values = np.array([*poses, last, Pose()])
     values *= 1.0 + rng.normal(0.0, 0.06, (len(values), 1))
     return Keys((np.array(beats) + LEAD) * period, values)
@@ -219,4 +227,4 @@ def _floor(figures: Sequence[Figure], starts: Array, period: float) -> Keys:
     for figure, start in zip(figures, starts, strict=False):
         beats += [float(start), float(start + figure.beats - 1)]
         values += [(figure.bounce, figure.circle)] * 2
-    return Keys((np.array([*beats, float(starts[-1]) + 1.0]) + LEAD) * period, np.array([*values, (0.0, 0.0)]))
+    return Keys((np.array([*beats, float(starts[-1]) + LEAD]) + LEAD) * period, np.array([*values, (0.0, 0.0)]))

@@ -33,8 +33,8 @@ class Place(NamedTuple):
 PLACES: Mapping[str, Place] = {
     "down": Place(0.22, 0.10, -0.90),
     "loose": Place(0.26, 0.30, -0.76, swivel=0.2),
-    "waist": Place(0.08, 0.16, -0.60, swivel=1.0, flex=0.5),
-    "back": Place(0.30, -0.30, -0.80),
+    "waist": Place(0.05, 0.10, -0.62, swivel=1.0, flex=-0.3, deviate=-0.5),
+    "back": Place(0.26, -0.26, -0.86),
     "low": Place(0.12, 0.55, -0.68, flex=-0.3),
     "low side": Place(0.66, 0.18, -0.62, flex=-0.3),
     "hip side": Place(0.48, 0.22, -0.66, swivel=0.2),
@@ -86,9 +86,10 @@ class Step(NamedTuple):
     beat : when it arrives.
     foot : "L" or "R".
     x, y : where, shares of the leg's length to the right and to the front of the figure's beginning.
-    kind : "step" takes the weight, "close" shares it, "tap" takes none, "heel" taps the heel, "air" hangs.
+    kind : "step" takes the weight, "close" shares it, "tap" takes none, "heel" taps the heel, "air" hangs; "shift" only
+        takes the weight where the foot is.
     turn : yaw of the foot in degrees, to the left.
-    z : height of the foot for "air", a share of the leg's length.
+    z : how high the foot hangs ("air") or passes ("step"), a share of the leg's length.
     """
 
     beat: float

@@ -5,16 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import minimum_filter1d
 
 from onbeat._shapes import Array, Bools, Positions, Rotations, Times
 from onbeat.examples.body import Build
-from onbeat.examples.paths import bump, minimum_jerk
+from onbeat.examples.paths import bump, minimum_jerk, soften
 from onbeat.motion import rotations as rot
 
 LIFT_OFF = 0.80
 """Beats before its beat at which a stepping foot begins to leave the floor."""
 LANDED = 0.14
 """Beats before its beat at which it stands."""
+EDGE = 0.004
+"""Metres over which a foot that would sink is eased onto the floor, so that nothing jerks."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,7 @@ class FootPlan:
     places : (E, 3) metres, the ball of the foot after each swing, z above the floor.
     yaws, pitches : (E,) radians after each swing, pitch with the toes up.
     clearance : (E,) metres by which the foot is raised in mid-swing.
+    stands : (E,) true where the foot stands on the floor after the swing, if only on its heel.
     """
 
     begins: Times
@@ -35,6 +39,7 @@ class FootPlan:
     yaws: Array
     pitches: Array
     clearance: Array
+    stands: Bools
 
 
 @dataclass(frozen=True)
@@ -58,12 +63,12 @@ def foot_path(plan: FootPlan, times: Times, build: Build) -> FootPath:
     ball = plan.places[before] + (plan.places[index] - plan.places[before]) * swing[:, None]
     ball[:, 2] += plan.clearance[index] * arc
     yaw = plan.yaws[before] + (plan.yaws[index] - plan.yaws[before]) * swing
-    pitch = plan.pitches[before] + (plan.pitches[index] - plan.pitches[before]) * minimum_jerk(share)
-    grounded = plan.places[before][:, 2] < 1e-6
+    pitch = plan.pitches[before] + (plan.pitches[index] - plan.pitches[before]) * swing
+    flat = plan.stands[before] & (plan.pitches[before] == 0.0)
     heel_off = bump(np.clip(share / 0.75, 0.0, 1.0)) * np.clip(plan.clearance[index] / 0.05, 0.0, 1.4)
-    pitch = pitch - 0.42 * heel_off * grounded
+    pitch = pitch - 0.42 * heel_off * flat
     moving = (share > 0.0) & (share < 1.0) & (index > 0)
-    contact = ~moving & (plan.places[index][:, 2] < 1e-6)
+    contact = ~moving & plan.stands[index]
     ankle, rotation, raised = _ankle(ball, yaw, pitch, build)
     toes = np.maximum(-pitch, 0.0) * np.exp(-np.maximum(ball[:, 2] + raised, 0.0) / 0.04)
     return FootPath(ankle, rotation, toes, yaw, contact)
@@ -75,7 +80,8 @@ def _ankle(ball: Positions, yaw: Array, pitch: Array, build: Build) -> tuple[Pos
     back, up = build.ball_forward, build.ankle_height - build.ball_height
     # The heel under the pitched foot, from the ball: (−back − heel_back, −ball_height) turned by the pitch.
     heel = build.ball_height - (back + build.heel_back) * sine - build.ball_height * cosine
-    raised = np.maximum(0.0, -(ball[:, 2] + heel))
+    under = -(ball[:, 2] + heel)
+    raised = 0.5 * (under + np.sqrt(under**2 + EDGE**2) - EDGE)
     forward = -back * cosine - up * sine
     ankle = np.stack(
         (
@@ -90,7 +96,7 @@ def _ankle(ball: Positions, yaw: Array, pitch: Array, build: Build) -> tuple[Pos
     return ankle, rot.multiply(rot.yaw(yaw), tilt), raised
 
 
-def highest_pelvis(hips: Positions, ankles: Positions, leg: float, stretch: float = 0.985) -> Array:
+def highest_pelvis(hips: Positions, ankles: Positions, leg: float, stretch: float = 0.99) -> Array:
     """Metres (F,) the hip joint (relative height ``hips`` z) can be raised until the leg is ``stretch`` straight.
 
     Returns the height of the pelvis above the floor at which ``|hip − ankle| = stretch · leg``.
@@ -103,3 +109,9 @@ def softest_minimum(heights: Array, softness: float = 0.008) -> Array:
     """A smooth minimum over the last axis, never above the true one: ``−s log Σ exp(−h/s)``, ``softness`` metres."""
     low = heights.min(axis=-1, keepdims=True)
     return low[..., 0] - softness * np.log(np.exp(-(heights - low) / softness).sum(axis=-1))
+
+
+def settle(height: Array, fps: float, seconds: float = 0.08) -> Array:
+    """The height smoothed from below: the lowest within ``seconds`` on both sides, then a Gaussian half as wide."""
+    low = minimum_filter1d(height, 2 * round(seconds * fps) + 1, mode="nearest")
+    return soften(low, fps, seconds / 2)

@@ -9,6 +9,9 @@ from scipy.ndimage import gaussian_filter1d
 
 from onbeat._shapes import Array, Ints, Times
 
+CREEP = 0.12
+"""The part of each move that goes on while its key is held."""
+
 
 @dataclass(frozen=True)
 class Keys:
@@ -45,15 +48,18 @@ def place_in(times: Times, keys: Times) -> tuple[Ints, Array]:
 def follow(times: Times, keys: Keys, hold: float = 0.0) -> Array:
     """The path (F, C) at ``times`` (F,): at rest at each key, minimum jerk between.
 
-    ``hold`` is the share of each interval spent at rest, half of it after the one key, half before the next, so that
-    stops stay centred on their keys.
+    ``hold`` is the time nearly at rest around each key, a share of the shortest interval, half of it before and half
+    after, so that stops stay centred on their keys. ``CREEP`` of the way is done all the same: a body never freezes.
     """
     index, share = place_in(times, keys.times)
-    share = np.clip((share - hold / 2) / (1.0 - hold), 0.0, 1.0)
+    spans = np.diff(keys.times)
+    held = (hold * spans.min() / spans)[index]
+    brisk = np.clip((share - held / 2) / (1.0 - held), 0.0, 1.0)
     values = keys.values
-    path = values[index] + (values[index + 1] - values[index]) * minimum_jerk(share)[:, None]
+    done = (1.0 - CREEP) * minimum_jerk(brisk) + CREEP * minimum_jerk(share)
+    path = values[index] + (values[index + 1] - values[index]) * done[:, None]
     if keys.bulges is not None:
-        path += keys.bulges[index] * bump(share)[:, None]
+        path += keys.bulges[index] * bump(brisk)[:, None]
     return path
 
 
@@ -62,7 +68,7 @@ def soften(path: Array, fps: float, seconds: float) -> Array:
     return gaussian_filter1d(path, max(seconds * fps, 1e-3), axis=0, mode="nearest")
 
 
-def exaggerate(path: Array, fps: float, amount: float, seconds: float = 0.09) -> Array:
+def exaggerate(path: Array, fps: float, amount: Array | float, seconds: float = 0.09) -> Array:
     """Wind-up before and overshoot after each move: ``x + a (x − G∗x)``.
 
     The cartoon animation filter (Wang et al. 2006). It has no phase, so stops stay where they are.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,9 +13,9 @@ from onbeat.examples.body import NAMES
 from onbeat.examples.choreography import LEAD, Score, write_score
 from onbeat.examples.dancers import Dancer
 from onbeat.examples.figures import Figure, Pose
-from onbeat.examples.footwork import FootPath, foot_path, highest_pelvis, softest_minimum
+from onbeat.examples.footwork import FootPath, foot_path, highest_pelvis, settle, softest_minimum
 from onbeat.examples.limbs import arm_rotations, leg_rotations, mirrored
-from onbeat.examples.paths import bump, exaggerate, follow, follow_through, place_in, soften
+from onbeat.examples.paths import Keys, bump, exaggerate, follow, follow_through, place_in, soften
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 
@@ -23,6 +23,8 @@ TEMPO = 104.0
 """Beats per minute at speed 1."""
 FADING = 4.5
 """Ornaments shrink as ``exp(−FADING (speed − 1))``: there is no time for them in fast music."""
+SHRINKING = 0.3
+"""Moves shrink as ``1 − SHRINKING (speed − 1)``."""
 _POSE = {name: index for index, name in enumerate(Pose._fields)}
 
 
@@ -57,10 +59,12 @@ def perform(
 ) -> Performance:
     """One clip: each of ``figures`` danced ``cycles`` times at ``speed`` times ``TEMPO``."""
     period = 60.0 / TEMPO / speed
+    calmer = 1.0 - SHRINKING * (speed - 1.0)
+    dancer = replace(dancer, amplitude=dancer.amplitude * calmer, stride=dancer.stride * calmer)
     order = [figure for figure in figures for _ in range(cycles)]
     score = write_score(order, dancer, period, rng)
     times = np.arange(int(np.floor(score.duration * fps + 1e-6)) + 1) / fps
-    task = ", ".join(figure.name for figure in figures)
+    task = ", ".join(dict.fromkeys(figure.name for figure in figures))
     seeds = {figure.name: zlib.crc32(figure.name.encode()) for figure in figures}
     ornaments = _ornaments(times, score, sum(seeds.values())) * dancer.ornaments * np.exp(-FADING * (speed - 1.0))
     breath = np.sin(2 * np.pi * (0.27 * times + rng.random()))
@@ -88,18 +92,19 @@ def _move(
     dancer: Dancer, score: Score, times: Times, ornaments: Array, breath: Array, fps: float, name: str
 ) -> tuple[Motion, Bools]:
     build = dancer.build
-    skeleton = build.skeleton()
+    skeleton = build.skeleton
     q = np.zeros((len(times), len(NAMES), 4))
     q[..., 0] = 1.0
-    trunk = _trunk_path(dancer, score, times, fps)
-    pelvis = soften(follow(times, score.pelvis, 0.1), fps, 0.07)
+    pelvis = soften(follow(times, score.pelvis, 0.1), fps, 0.08)
     floor = follow(times, score.floor)
+    arms = [_arm_path(dancer, keys, times, fps) for keys in score.hands]
+    trunk = _trunk_path(dancer, score, times, fps)
+    _groove(trunk, arms, pelvis[:, 3], _dip(times - 0.03, score.period) * floor[:, 0] * dancer.bounce)
     _set_trunk(q, trunk, pelvis[:, 2], ornaments[:, 4:], breath)
-    for side, keys in zip(("Left", "Right"), score.hands, strict=True):
-        _set_arm(q, side, _arm_path(dancer, keys, times, fps), ornaments[:, :2] if side == "Left" else ornaments[:, 2:4],
-                 dancer, breath, fps)  # fmt: skip
+    for side, path, details in zip(("Left", "Right"), arms, (ornaments[:, :2], ornaments[:, 2:4]), strict=True):
+        _set_arm(q, side, path, details, dancer, breath, fps)
     left, right = (foot_path(plan, times, build) for plan in score.feet)
-    root = _root(dancer, score, times, trunk, pelvis, floor, q[:, 0], (left, right))
+    root = _root(dancer, score, times, trunk, pelvis, floor, q[:, 0], (left, right), fps)
     _set_leg(q, "Left", root, left, pelvis[:, 2], dancer)
     _set_leg(q, "Right", root, right, pelvis[:, 2], dancer)
     return Motion(skeleton, q, root, fps, name), np.stack((left.contact, right.contact), axis=-1)
@@ -114,13 +119,28 @@ def _trunk_path(dancer: Dancer, score: Score, times: Times, fps: float) -> Array
     return path
 
 
-def _arm_path(dancer: Dancer, keys: object, times: Times, fps: float) -> Array:
-    path = follow(times, keys, dancer.hold)  # type: ignore[arg-type]
-    return exaggerate(soften(path, fps, dancer.softness), fps, dancer.overshoot)
+def _arm_path(dancer: Dancer, keys: Keys, times: Times, fps: float) -> Array:
+    path = soften(follow(times, keys, dancer.hold), fps, dancer.softness)
+    return exaggerate(path, fps, dancer.overshoot * (1.0 - np.clip(path[:, 7:], 0.0, 1.0)))
 
 
 def _vector(x: Array, y: Array, z: Array) -> Rotations:
     return rot.exp(np.stack((x, y, z), axis=-1))
+
+
+def _dip(times: Times, period: float) -> Array:
+    """How deep the bounce is: 1 on each beat, 0 between."""
+    return (0.5 + 0.5 * np.cos(2 * np.pi * times / period)) ** 1.5
+
+
+def _groove(trunk: Array, arms: list[Array], weight: Array, dip: Array) -> None:
+    """What the trunk does by itself, added in place: it gives way to the arms, the weight and the bounce."""
+    left, right = arms
+    trunk[:, _POSE["twist"]] += 0.07 * (left[:, 0] - right[:, 0])
+    trunk[:, _POSE["lean"]] += 0.05 * (left[:, 1] - right[:, 1]) + 0.05 * (2 * weight - 1)
+    trunk[:, _POSE["hip"]] += 0.07 * (2 * weight - 1)
+    trunk[:, _POSE["bow"]] += 1.0 * dip - 0.035 * (left[:, 1] + right[:, 1])
+    trunk[:, _POSE["nod"]] += 2.5 * dip
 
 
 def _set_trunk(q: Rotations, trunk: Array, yaw: Array, ornaments: Array, breath: Array) -> None:
@@ -145,7 +165,7 @@ def _set_arm(
     build = dancer.build
     upper, forearm = arm_rotations(path[:, :2], path[:, 2], path[:, 3], (build.upper_arm, build.forearm))
     raised = 0.14 * (1.0 + np.tanh(1.8 * (path[:, 1] - 0.55))) + 0.012 * breath
-    collar = _vector(0 * raised, -raised, 0 * raised)
+    collar = _vector(0 * raised, -raised, -0.10 * path[:, 0])
     drag = 0.5 * np.tanh(0.16 * dancer.wrist * follow_through(path[:, :2], fps))
     hand = _vector(0 * raised, path[:, 5] + drag[:, 0] + ornaments[:, 1], path[:, 6] - drag[:, 1])
     twist = path[:, 4] + ornaments[:, 0]
@@ -161,7 +181,7 @@ def _set_arm(
 
 def _root(
     dancer: Dancer, score: Score, times: Times, trunk: Array, pelvis: Array, floor: Array, hips: Rotations,
-    feet: tuple[FootPath, FootPath],
+    feet: tuple[FootPath, FootPath], fps: float,
 ) -> Positions:  # fmt: skip
     """The pelvis: over the foot that bears the weight, the trunk's lean balanced, as high as the legs allow."""
     build = dancer.build
@@ -173,14 +193,14 @@ def _root(
     root = np.empty((len(times), 3))
     root[:, 0] = pelvis[:, 0] + cosine * aside - sine * ahead
     root[:, 1] = pelvis[:, 1] + sine * aside + cosine * ahead
-    dip = (0.5 + 0.5 * np.cos(2 * np.pi * times / score.period)) ** 1.5
-    standing = build.ankle_height + build.leg * (0.982 - trunk[:, 7] - floor[:, 0] * dancer.bounce * dip)
+    dip = _dip(times, score.period)
+    standing = build.ankle_height + build.leg * (0.99 - trunk[:, 7] - floor[:, 0] * dancer.bounce * dip)
     heights = [standing + build.hip_drop]
     root[:, 2] = 0.0
     for sign, foot in zip((-1.0, 1.0), feet, strict=True):
         hip = root + rot.rotate(hips, np.array([sign * build.hip_half_width, 0.0, -build.hip_drop]))
         heights.append(highest_pelvis(hip, foot.ankle, build.leg))
-    root[:, 2] = softest_minimum(np.stack(heights, axis=-1))
+    root[:, 2] = settle(softest_minimum(np.stack(heights, axis=-1)), fps)
     return root
 
 
