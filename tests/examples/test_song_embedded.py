@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import soundfile
+from scipy.signal import lfilter
 
 from onbeat.errors import AudioError
 from onbeat.examples.song import RATE, DemoSong, demo_score, demo_song, encode, perform, true_song, write
@@ -29,7 +32,7 @@ def test_sound_is_clean(demo: DemoSong) -> None:
     assert np.abs(samples).max() < 0.98
     assert np.abs(samples.mean(axis=0)).max() < 1e-4
     assert -17.5 < level(samples) < -14.5
-    assert 0.2 < np.corrcoef(samples.T)[0, 1] < 0.95
+    assert 0.2 < np.corrcoef(samples[:, 0], samples[:, 1]).item(1) < 0.95
 
 
 def test_ends_are_silent_and_no_click_stands_out(demo: DemoSong) -> None:
@@ -38,7 +41,7 @@ def test_ends_are_silent_and_no_click_stands_out(demo: DemoSong) -> None:
 
 
 def test_same_arguments_same_samples(demo: DemoSong) -> None:
-    assert np.array_equal(demo.samples, demo_song().samples)
+    assert np.array_equal(demo.samples, demo_song(60.0, seed=0, tempo=106.0, meter=4).samples)
     assert not np.array_equal(demo_song(12.0, seed=1).samples, demo_song(12.0, seed=2).samples)
 
 
@@ -112,7 +115,7 @@ def test_truth_is_a_song_document(demo: DemoSong) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".wav", ".flac", ".mp3"])
-def test_files_have_the_same_bytes_twice(tmp_path, suffix: str) -> None:
+def test_files_have_the_same_bytes_twice(tmp_path: Path, suffix: str) -> None:
     demo = demo_song(6.0)
     write(demo, tmp_path / f"song{suffix}")
     assert (tmp_path / f"song{suffix}").read_bytes() == encode(demo, suffix)
@@ -121,10 +124,26 @@ def test_files_have_the_same_bytes_twice(tmp_path, suffix: str) -> None:
     assert abs(len(samples) - len(demo.samples)) < 3000
 
 
-def test_what_cannot_be_made_is_refused(tmp_path) -> None:
+def test_shortest_song_is_as_the_message_says() -> None:
+    with pytest.raises(AudioError) as caught:
+        demo_song(1.0)
+    least = float(str(caught.value).split("ask for ")[1].split(" s")[0])
+    assert demo_song(least).duration == pytest.approx(least, abs=1e-4)
+
+
+def test_what_cannot_be_made_is_refused(tmp_path: Path) -> None:
     with pytest.raises(AudioError, match="too short"):
         demo_song(2.0)
     with pytest.raises(AudioError, match="meter"):
         demo_song(20.0, meter=5)
     with pytest.raises(AudioError, match=r"\.flac"):
         write(demo_song(5.0), tmp_path / "song.ogg")
+
+
+def test_loudness_is_that_of_a_record(demo: DemoSong) -> None:
+    """−14 LUFS, with the K weighting of BS.1770 (ungated) as two filters at 44.1 kHz."""
+    shelf = ([1.5308412, -2.6509799, 1.1690790], [1.0, -1.6636551, 0.7125954])
+    cut = ([1.0, -2.0, 1.0], [1.0, -1.9891696, 0.9891991])
+    weighted = np.asarray(lfilter(*cut, np.asarray(lfilter(*shelf, demo.samples, axis=0)), axis=0))
+    loudness = -0.691 + 10.0 * np.log10(np.mean(weighted**2, axis=0).sum())
+    assert loudness == pytest.approx(-14.0, abs=1.0)

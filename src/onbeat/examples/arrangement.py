@@ -59,8 +59,12 @@ def form(bars: int) -> tuple[Part, ...]:
     known = max((lengths for lengths in _FORMS if sum(lengths) <= bars), key=sum)
     spare = bars - sum(known)
     pairs, spare = divmod(spare, 16)  # long songs have more verses and choruses before the break
-    known = [*known[:5], known[5] + min(spare, 1)]
-    known[0] += max(spare - 1, 0)
+    known = list(known)
+    for slot, more in ((4, 8), (3, 4), (5, 1)):  # then a longer last chorus, a longer break, a longer outro
+        if spare >= more:
+            known[slot] += more
+            spare -= more
+    known[0] += spare
     plan = [*zip(_NAMES[:3], known[:3], strict=True), *[("verse", 8), ("chorus", 8)] * pairs]
     plan += zip(_NAMES[3:], known[3:], strict=True)
     parts: list[Part] = []
@@ -108,7 +112,7 @@ def lay_grid(seconds: float, tempo: float, meter: int, drift: float) -> Grid:
         )
     bars = int((seconds - LEAD - RING) / (meter * 60.0 / tempo)) if np.isfinite(seconds) else 0
     if bars < 1:
-        least = LEAD + RING + meter * 60.0 / tempo
+        least = np.ceil((LEAD + RING + meter * 60.0 / tempo) * 10.0) / 10.0
         raise AudioError(f"a song of {seconds:g} s is too short for one bar and an end; ask for {least:.1f} s or more")
     count = bars * meter
     along = (np.arange(count) + 0.5) / count

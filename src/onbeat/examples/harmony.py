@@ -113,3 +113,15 @@ def choose_progressions(rng: np.random.Generator) -> Progressions:
     mode = str(rng.choice(["major", "mixolydian", "dorian"], p=[0.5, 0.2, 0.3]))
     tonic = int(rng.choice([0, 2, 4, 5, 7, 9]))
     return Progressions(Key(tonic, mode), str(rng.choice(_VERSES[mode])), str(rng.choice(_CHORUSES[mode])))
+
+
+def voicing(chord: Chord, lowest: int, count: int) -> list[int]:
+    """The ``count`` lowest chord tones (MIDI notes) from ``lowest`` up.
+
+    Examples
+    --------
+    >>> voicing(Chord(2, "major"), 50, 4)
+    [50, 54, 57, 62]
+    """
+    found = [pitch for pitch in range(lowest, lowest + 12 * count) if pitch % 12 in chord.tones]
+    return found[:count]

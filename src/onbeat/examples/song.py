@@ -12,12 +12,14 @@ import soundfile
 
 from onbeat._shapes import Array, Float32, Times
 from onbeat.errors import AudioError
+from onbeat.examples.accompaniment import play_guitar, play_pad
 from onbeat.examples.arrangement import Section, form, lay_grid, sections
-from onbeat.examples.band import play_guitar, play_pad, play_tune
-from onbeat.examples.groove import play_bass, play_drums
+from onbeat.examples.bass import play_bass
+from onbeat.examples.groove import play_drums
 from onbeat.examples.harmony import Chord, choose_progressions
 from onbeat.examples.mixing import Desk, master
 from onbeat.examples.score import Score, write_score
+from onbeat.examples.singers import play_tune
 from onbeat.examples.synth import RATE
 from onbeat.files import write_atomically
 from onbeat.music.song import Song
@@ -103,7 +105,7 @@ def demo_song(
     return DemoSong(
         samples=samples,
         rate=RATE,
-        tempo=float(60.0 / np.polyfit(np.arange(len(beats)), beats, 1)[0]),
+        tempo=_tempo(beats),
         meter=meter,
         beats=beats,
         downbeats=beats[::meter].copy(),
@@ -111,6 +113,12 @@ def demo_song(
         sections=sections(score.parts, score.grid, len(samples) / RATE),
         title=f"onbeat demo song {seed}",
     )
+
+
+def _tempo(beats: Times) -> float:
+    """Beats per minute of the straight line nearest to the beats (by sums, whose order threads do not change)."""
+    numbers = np.arange(len(beats)) - (len(beats) - 1) / 2.0
+    return 60.0 * float((numbers**2).sum() / (numbers * beats).sum())
 
 
 def perform(score: Score, seconds: float, seed: int) -> Desk:

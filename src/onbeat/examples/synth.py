@@ -35,7 +35,7 @@ def wave_table(frequency: float, roll_off: float, formant: float = 0.0) -> Float
     if formant:
         amplitudes *= 1.0 + 1.5 * np.exp(-(np.log2(harmonics * frequency / formant) ** 2) * 2.0)
     phases = np.arange(_TABLE) / _TABLE * 2.0 * np.pi
-    table = np.sin(phases[:, None] * harmonics[None, :]) @ amplitudes
+    table = (np.sin(phases[:, None] * harmonics[None, :]) * amplitudes).sum(axis=1)
     table = (table / np.abs(table).max()).astype(np.float32)
     table.setflags(write=False)
     return table
