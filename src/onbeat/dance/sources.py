@@ -23,6 +23,8 @@ from onbeat.motion.skeleton import Skeleton
 
 Warp = Callable[[Times], Times]
 """From the dance's seconds to the plan's seconds, never going back."""
+FAR = 0.95
+"""Cosine of half the angle between neighbouring frames below which rotations are read linearly."""
 CLOCK_STEP = 1 / 480
 """Seconds between the points at which a warp is inverted."""
 
@@ -35,21 +37,44 @@ class Pose(NamedTuple):
 
 
 def sample(clips: Sequence[Motion], which: Ints, seconds: Times) -> Pose:
-    """Poses of clips ``which`` (N,) at ``seconds`` (N,): spherical and linear between frames, held past the ends."""
+    """Poses of clips ``which`` (N,) at ``seconds`` (N,), held past the ends of a clip.
+
+    Frames are shown as they are; between frames a cubic through the four around it (Catmull-Rom, on quaternions made
+    unit again) keeps velocities continuous, so that slow clips and warped time do not stutter.
+    """
     joints = len(clips[0].skeleton)
-    low_rotations, high_rotations = np.empty((len(which), joints, 4)), np.empty((len(which), joints, 4))
-    roots, part = np.empty((len(which), 3)), np.empty(len(which))
+    rotations, roots = np.empty((len(which), joints, 4)), np.empty((len(which), 3))
     for index in np.unique(which):
         clip, rows = clips[index], np.flatnonzero(which == index)
         frames = np.clip(seconds[rows] * clip.fps, 0, len(clip) - 1)
-        low = np.floor(frames + 1e-6).astype(np.int64)
-        high = np.minimum(low + 1, len(clip) - 1)
-        mix = np.maximum(frames - low, 0.0)
-        low_rotations[rows], high_rotations[rows], part[rows] = clip.rotations[low], clip.rotations[high], mix
-        roots[rows] = clip.root_positions[low] * (1 - mix[:, None]) + clip.root_positions[high] * mix[:, None]
-    between = np.flatnonzero(part > 1e-4)
-    low_rotations[between] = rot.slerp(low_rotations[between], high_rotations[between], part[between, None])
-    return Pose(low_rotations, roots)
+        low = np.minimum(np.floor(frames + 1e-4).astype(np.int64), len(clip) - 1)
+        part = np.maximum(frames - low, 0.0)
+        rotations[rows], roots[rows] = clip.rotations[low], clip.root_positions[low]
+        between = part > 1e-4
+        if between.any():
+            rotations[rows[between]], roots[rows[between]] = _between(clip, low[between], part[between])
+    return Pose(rotations, roots)
+
+
+def _between(clip: Motion, low: Ints, part: Array) -> Pose:
+    """Poses a ``part`` (N,) of a frame after the frames ``low`` (N,)."""
+    near = np.clip(low[:, None] + np.arange(-1, 3), 0, len(clip) - 1)
+    weights = catmull_rom(part)
+    q = clip.rotations[near]
+    along = np.sum(q * q[:, 1:2], axis=-1, keepdims=True)
+    blended = np.sum(np.where(along < 0, -q, q) * weights[:, :, None, None], axis=1)
+    # Where a joint turns far from one frame to the next (a fault of the capture) a cubic would overshoot.
+    far = np.abs(along).min(axis=1)[..., 0] < FAR
+    rotations = rot.normalise(blended)
+    if far.any():
+        rotations[far] = rot.slerp(q[:, 1][far], q[:, 2][far], np.broadcast_to(part[:, None], far.shape)[far])
+    return Pose(rotations, np.sum(clip.root_positions[near] * weights[..., None], axis=1))
+
+
+def catmull_rom(u: Array) -> Array:
+    """(N, 4) weights of the values at -1, 0, 1 and 2 for a cubic read at ``u`` (N,) between 0 and 1."""
+    powers = np.stack((np.ones_like(u), u, u**2, u**3), axis=-1)
+    return powers @ (np.array([[0, 2, 0, 0], [-1, 0, 1, 0], [2, -5, 4, -1], [-1, 3, -3, 1]]) / 2)
 
 
 @dataclass(frozen=True)
