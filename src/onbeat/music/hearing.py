@@ -12,10 +12,13 @@ from onbeat.music.spectrum import SpectrumStream, bin_frequencies, log_bands
 
 ONSET_WINDOW = 0.046  # [s]
 ONSET_HOP = 0.01  # [s]
+ATTACK_WINDOW = 0.023  # [s], short: for the exact time of an onset
+ATTACK_HOP = 0.005  # [s]
 TONE_WINDOW = 0.186  # [s], long enough to part semitones from 110 Hz up
 TONE_HOP = 0.05  # [s]
 LOWEST_TONE = 55.0  # [Hz], A1
 TONES = 61  # semitones from A1 to A6
+BANDS_PER_OCTAVE = 8
 SILENCE = 1e-10  # power (−100 dB) below which everything counts as silence
 
 Progress = Callable[[float], None]
@@ -30,9 +33,10 @@ class Hearing:
     ----------
     duration : seconds.
     peak : highest absolute sample.
-    onset_rate, tone_rate : frames per second of the two kinds of frames below.
+    onset_rate, attack_rate, tone_rate : frames per second of the three kinds of frames below.
     bands : (N, bands) float16, log10 power in bands an eighth of an octave apart, short windows.
     band_frequencies : (bands,) Hz.
+    attacks : (A,) rise of the fourth root of the power from the frame before, very short windows: sharp in time.
     tones : (M, TONES) power of the semitones, long windows.
     loudness : (M,) power with the ear's weighting of frequencies.
     """
@@ -40,9 +44,11 @@ class Hearing:
     duration: float
     peak: float
     onset_rate: float
+    attack_rate: float
     tone_rate: float
     bands: np.ndarray
     band_frequencies: Array
+    attacks: Float32
     tones: Float32
     loudness: Float32
 
@@ -58,39 +64,62 @@ def ear_weighting(frequencies: Array) -> Array:
     return (1.2589 * 12194.0**2 * squared**2 / np.maximum(low, 1e-30)) ** 2
 
 
+class _Streams:
+    """The three kinds of spectra of the sound that streams by, and what is kept of them."""
+
+    def __init__(self, rate: int) -> None:
+        self.hops = [round(hop * rate) for hop in (ONSET_HOP, ATTACK_HOP, TONE_HOP)]
+        windows = [2 * round(window * rate / 2) for window in (ONSET_WINDOW, ATTACK_WINDOW, TONE_WINDOW)]
+        self._spectra = [SpectrumStream(window, hop) for window, hop in zip(windows, self.hops, strict=True)]
+        highest = min(10000.0, 0.45 * rate)
+        onset, attack, tone = (bin_frequencies(window, rate) for window in windows)
+        self._bands = log_bands(onset, 40.0, highest, BANDS_PER_OCTAVE)
+        self._coarse = log_bands(attack, 100.0, highest, 4)
+        self._semitones = log_bands(tone, LOWEST_TONE, LOWEST_TONE * 2.0 ** ((TONES - 0.5) / 12), 12)
+        self._ear = ear_weighting(tone).astype(np.float32)
+        self._before = np.zeros((1, self._coarse.shape[1]), np.float32)
+        self.bands: list[np.ndarray] = []
+        self.attacks: list[Float32] = []
+        self.tones: list[Float32] = []
+        self.loudness: list[Float32] = []
+
+    def push(self, block: Float32) -> None:
+        self._keep(*(stream.push(block) for stream in self._spectra))
+
+    def finish(self) -> None:
+        self._keep(*(stream.finish() for stream in self._spectra))
+
+    def _keep(self, onset: Float32, attack: Float32, tone: Float32) -> None:
+        self.bands.append(np.log10(np.maximum(onset @ self._bands, SILENCE)).astype(np.float16))
+        roots = np.concatenate([self._before, np.sqrt(np.sqrt(attack @ self._coarse))])
+        self._before = roots[-1:]
+        self.attacks.append(np.maximum(np.diff(roots, axis=0), 0.0).sum(axis=1))
+        self.tones.append(tone @ self._semitones)
+        self.loudness.append(tone @ self._ear)
+
+
 def hear(blocks: Iterable[Float32], rate: int, progress: Progress | None = None) -> Hearing:
     """Hear mono blocks at ``rate`` samples per second, in one pass."""
-    onset_hop, tone_hop = round(ONSET_HOP * rate), round(TONE_HOP * rate)
-    onset_window, tone_window = 2 * round(ONSET_WINDOW * rate / 2), 2 * round(TONE_WINDOW * rate / 2)
-    onset_stream, tone_stream = SpectrumStream(onset_window, onset_hop), SpectrumStream(tone_window, tone_hop)
-    filters = log_bands(bin_frequencies(onset_window, rate), 40.0, min(10000.0, 0.45 * rate), 8)
-    frequencies = bin_frequencies(tone_window, rate)
-    semitones = log_bands(frequencies, LOWEST_TONE, LOWEST_TONE * 2.0 ** ((TONES - 0.5) / 12), 12)
-    ear = ear_weighting(frequencies).astype(np.float32)
-    bands: list[np.ndarray] = []
-    tones: list[Float32] = []
-    loudness: list[Float32] = []
+    streams = _Streams(rate)
     samples, peak = 0, 0.0
-
-    def keep(short: Float32, long: Float32) -> None:
-        bands.append(np.log10(np.maximum(short @ filters, SILENCE)).astype(np.float16))
-        tones.append(long @ semitones)
-        loudness.append(long @ ear)
-
     for block in blocks:
-        keep(onset_stream.push(block), tone_stream.push(block))
+        streams.push(block)
         samples += len(block)
         peak = max(peak, float(np.abs(block).max(initial=0.0)))
         if progress:
             progress(samples / rate)
-    keep(onset_stream.finish(), tone_stream.finish())
+    streams.finish()
+    bands = np.concatenate(streams.bands)
+    onset_rate, attack_rate, tone_rate = (rate / hop for hop in streams.hops)
     return Hearing(
         duration=samples / rate,
         peak=peak,
-        onset_rate=rate / onset_hop,
-        tone_rate=rate / tone_hop,
-        bands=np.concatenate(bands),
-        band_frequencies=40.0 * 2.0 ** (np.arange(filters.shape[1]) / 8),
-        tones=np.concatenate(tones),
-        loudness=np.concatenate(loudness),
+        onset_rate=onset_rate,
+        attack_rate=attack_rate,
+        tone_rate=tone_rate,
+        bands=bands,
+        band_frequencies=40.0 * 2.0 ** (np.arange(bands.shape[1]) / BANDS_PER_OCTAVE),
+        attacks=np.concatenate(streams.attacks),
+        tones=np.concatenate(streams.tones),
+        loudness=np.concatenate(streams.loudness),
     )
