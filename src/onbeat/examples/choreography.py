@@ -30,7 +30,8 @@ class Score:
     period, duration : seconds of a beat and of the clip.
     hands : left and right, 8 values a key: arc outward and upward, reach, swivel, roll, flex, deviate; 1 in a clap.
     trunk : the 11 values of a ``Pose``.
-    pelvis : x, y in metres, yaw in radians and the share of the weight on the right foot.
+    pelvis : x, y in metres and yaw in radians.
+    weight : the share of the weight on the right foot, on the beats.
     feet : left and right.
     floor : bounce and hip circle, shares of the leg's length.
     keyposes : seconds.
@@ -41,6 +42,7 @@ class Score:
     hands: tuple[Keys, Keys]
     trunk: Keys
     pelvis: Keys
+    weight: Keys
     feet: tuple[FootPlan, FootPlan]
     floor: Keys
     keyposes: Times
@@ -86,12 +88,15 @@ def write_score(figures: Sequence[Figure], dancer: Dancer, period: float, rng: n
     stage.stand(float(starts[-1]) + LEAD, 0.5)
     keyposes = _keypose_beats(figures, starts)
     beats = starts[-1] + 2 * LEAD
+    pelvis = _in_order(np.array(stage.pelvis), period)
+    on_beat = np.abs(pelvis.times / period - np.round(pelvis.times / period)) < 1e-6
     return Score(
         period=period,
         duration=float(beats * period),
         hands=_hands(figures, starts, dancer, period, rng),
         trunk=_trunk(figures, starts, period, rng),
-        pelvis=_in_order(np.array(stage.pelvis), period),
+        pelvis=pelvis,
+        weight=Keys(pelvis.times[on_beat], pelvis.values[on_beat, 3:]),
         feet=(_plan(stage.feet["L"], period), _plan(stage.feet["R"], period)),
         floor=_floor(figures, starts, period),
         keyposes=(keyposes + LEAD) * period,

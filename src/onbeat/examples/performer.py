@@ -99,7 +99,7 @@ def _move(
     floor = follow(times, score.floor)
     arms = [_arm_path(dancer, keys, times, fps) for keys in score.hands]
     trunk = _trunk_path(dancer, score, times, fps)
-    _groove(trunk, arms, pelvis[:, 3], _dip(times - 0.03, score.period) * floor[:, 0] * dancer.bounce)
+    _groove(trunk, arms, follow(times, score.weight)[:, 0], _dip(times - 0.03, score.period) * floor[:, 0] * dancer.bounce)
     _set_trunk(q, trunk, pelvis[:, 2], ornaments[:, 4:], breath)
     for side, path, details in zip(("Left", "Right"), arms, (ornaments[:, :2], ornaments[:, 2:4]), strict=True):
         _set_arm(q, side, path, details, dancer, breath, fps)
@@ -137,7 +137,7 @@ def _groove(trunk: Array, arms: list[Array], weight: Array, dip: Array) -> None:
     """What the trunk does by itself, added in place: it gives way to the arms, the weight and the bounce."""
     left, right = arms
     trunk[:, _POSE["twist"]] += 0.07 * (left[:, 0] - right[:, 0])
-    trunk[:, _POSE["lean"]] += 0.05 * (left[:, 1] - right[:, 1]) + 0.05 * (2 * weight - 1)
+    trunk[:, _POSE["lean"]] += 0.05 * (left[:, 1] - right[:, 1]) + 0.03 * (2 * weight - 1)
     trunk[:, _POSE["hip"]] += 0.07 * (2 * weight - 1)
     trunk[:, _POSE["bow"]] += 1.0 * dip - 0.035 * (left[:, 1] + right[:, 1])
     trunk[:, _POSE["nod"]] += 2.5 * dip

@@ -40,7 +40,7 @@ BOW = Figure(
     name="bow",
     beats=8,
     hands={0: "loose | loose", 2: "side low | side low", 4: "back | belly", 6: "hip side | open"},
-    steps=(Step(2, "R", STANCE, -0.16), Step(7, "R", STANCE, 0.0, "close")),
+    steps=(Step(2, "R", STANCE, -0.16), Step(8, "R", STANCE, 0.0, "close")),
     trunk={
         0: Pose(),
         2: Pose(bow=-0.05, nod=-0.1),
