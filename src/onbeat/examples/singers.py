@@ -19,7 +19,9 @@ def _fiddle(pitch: float, seconds: float) -> Float32:
     length = int(seconds * RATE)
     table = wave_table(hertz(pitch), 1.25, 1500.0)
     bend = vibrato(length, 5.6, 16.0, 0.16)
-    tone = oscillate(table, hertz(pitch), length, bend) + 0.6 * oscillate(table, hertz(pitch + 0.06), length, bend, 0.3)
+    tone = oscillate(table, hertz(pitch), length, bend) + 0.35 * oscillate(
+        table, hertz(pitch + 0.04), length, bend, 0.3
+    )
     return shape(tone, swell(length, 0.035, 0.07), 0.75 + 0.25 * decay(length, 0.25))
 
 
@@ -28,7 +30,7 @@ def _flute(pitch: float, seconds: float, breath: Float32) -> Float32:
     length = int(seconds * RATE)
     tone = oscillate(wave_table(hertz(pitch), 2.3), hertz(pitch), length, vibrato(length, 4.8, 11.0, 0.2))
     air = np.resize(breath, length) * (0.05 + 0.2 * decay(length, 0.03))
-    return shape(tone + air, swell(length, 0.045, 0.08))
+    return shape(tone + air, swell(length, 0.045, 0.08), 0.8 + 0.2 * decay(length, 0.3))
 
 
 def _breath(rng: np.random.Generator) -> Float32:
@@ -39,8 +41,8 @@ def _breath(rng: np.random.Generator) -> Float32:
 
 def play_tune(desk: Desk, score: Score, rng: np.random.Generator) -> None:
     """Sing the tune: in the verse fiddle and flute take turns, in the chorus all play, the flute a third above."""
-    desk.track("fiddle", 0.23, 0.15, 0.3)
-    desk.track("flute", 0.17, -0.25, 0.35)
+    desk.track("fiddle", 0.25, 0.15, 0.3)
+    desk.track("flute", 0.185, -0.25, 0.35)
     desk.track("mandolin", 0.6, 0.55, 0.2)
     breath = _breath(rng)
     strings = {pitch: pluck(pitch, 1.0, 0.8, 1.3, rng) for pitch in range(52, 100)}
