@@ -12,6 +12,7 @@ app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc_
 # Named by path, so that a command is imported when it is called.
 app.command("onbeat.cli.listen:listen_command", name="listen", help="Hear the beats and chords of a song.")
 app.command("onbeat.cli.evaluate:evaluate_command", name="evaluate")
+app.command("onbeat.cli.convert:convert_command", name="convert")
 
 
 def main() -> None:

@@ -25,6 +25,10 @@ from onbeat.motion import rotations as rot
 ASSUMED_FPS = 120.0
 
 
+class RateWarning(UserWarning):
+    """The rate of a file is not stored and was assumed."""
+
+
 @dataclass
 class _Bone:
     name: str
@@ -67,6 +71,7 @@ def read_amc(path: str | Path, fps: float | None = None, skeleton: str | Path | 
     if fps is None:
         warnings.warn(
             "AMC files store no frame rate: 120 frames a second are assumed; give the rate if it is another",
+            RateWarning,
             stacklevel=3,
         )
         fps = ASSUMED_FPS
