@@ -119,14 +119,17 @@ def evaluate(
     the same three with ``_p95`` (95th percentiles), and ``…_ratio``, ``…_p95_ratio``: joins over source, or over
     elsewhere where no source is given. None where there is nothing to measure.
     """
+    times, values = jerk(motion, np.arange(len(motion.skeleton)))
+    inside = near_joins(times, joins, window)
+    sources = [(jerk(clip, np.arange(len(clip.skeleton)))[1], joint_groups(Body.of(clip.skeleton))) for clip in source]
     result: dict[str, float | None] = {}
-    sources = [(clip, joint_groups(Body.of(clip.skeleton))) for clip in source]
     for group, joints in joint_groups(Body.of(motion.skeleton)).items():
-        times, values = jerk(motion, joints)
-        inside = near_joins(times, joins, window)
-        pool = [jerk(clip, groups[group])[1].ravel() for clip, groups in sources]
-        original = np.concatenate(pool) if pool else np.zeros(0)
-        places = {"joins": values[inside], "elsewhere": values[~inside], "source": original}
+        pool = [original[:, groups[group]].ravel() for original, groups in sources]
+        places = {
+            "joins": values[inside][:, joints],
+            "elsewhere": values[~inside][:, joints],
+            "source": np.concatenate(pool) if pool else np.zeros(0),
+        }
         result |= _compared(f"jerk_{group}", places, "source" if pool else "elsewhere")
     return result
 
