@@ -7,6 +7,7 @@ import { bytesOf } from "./data";
 const SNAP = 0.08; // [s] an error that is jumped, not pulled
 const PULL = 3; // [1/s]
 const LEAD = 0.04; // [s] from asking for sound to its first sample
+const CODEC_DELAY = 1105; // [samples] that an MP3 begins with; most browsers cut them off, some do not
 
 export class Clock {
   playing = false;
@@ -14,6 +15,7 @@ export class Clock {
   private context?: AudioContext;
   private buffer?: AudioBuffer;
   private source?: AudioBufferSourceNode;
+  private silent = 0; // [s] before the song in the sound
   private origin = 0; // time of the dance at `mark`
   private mark = 0; // [s] of the leading clock
   private shown = 0;
@@ -30,6 +32,7 @@ export class Clock {
     const bytes = bytesOf(audio.uri.slice(audio.uri.indexOf(",") + 1));
     const buffer = await new OfflineAudioContext(2, 1, audio.rate).decodeAudioData(bytes.buffer);
     const at = this.now(performance.now());
+    this.silent = buffer.duration - audio.seconds > CODEC_DELAY / audio.rate / 2 ? CODEC_DELAY / audio.rate : 0;
     this.buffer = buffer;
     if (this.playing) this.restart(at);
   }
@@ -89,12 +92,12 @@ export class Clock {
     this.context ??= new AudioContext({ latencyHint: "playback" });
     void this.context.resume();
     this.mark = this.context.currentTime + LEAD;
-    if (at >= buffer.duration) return;
+    if (at + this.silent >= buffer.duration) return;
     this.source = this.context.createBufferSource();
     this.source.buffer = buffer;
     this.source.playbackRate.value = this.rate;
     this.source.connect(this.context.destination);
-    this.source.start(this.mark, at);
+    this.source.start(this.mark, at + this.silent);
   }
 
   private silence(): void {

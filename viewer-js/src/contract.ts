@@ -59,7 +59,7 @@ export interface PageData {
   joints: string[];
   capsules: CapsuleData[];
   path: PathData;
-  centre: number;
+  spine: number[];
   facing: number;
   floor: number;
   audio: AudioData | null;

@@ -3,12 +3,14 @@
 import * as THREE from "three";
 import type { CapsuleData, PageData } from "./contract";
 import { readPath } from "./data";
+import { Trunk, type Tube } from "./trunk";
 
 const COLOURS: Record<string, string> = {
   head: "#e8b796",
   torso: "#e2583e",
   arm: "#e2583e",
   hand: "#e8b796",
+  hips: "#39405c",
   leg: "#39405c",
   foot: "#f4f1ec",
 };
@@ -18,6 +20,7 @@ interface Limb {
   data: CapsuleData;
   mesh: THREE.Mesh;
   length: number;
+  tube: Tube;
 }
 
 export class Dancer {
@@ -27,19 +30,28 @@ export class Dancer {
   readonly centre = new THREE.Vector3();
   private readonly path: Float32Array;
   private readonly limbs: Limb[];
+  private readonly trunk?: Trunk;
+  private readonly spine: THREE.Vector3[];
 
   constructor(private readonly page: PageData) {
     this.path = readPath(page.path);
     this.joints = new Float32Array(page.joints.length * 3);
     this.interpolate(0);
     this.limbs = page.capsules.map((data) => this.limb(data));
+    this.spine = page.spine.map(() => new THREE.Vector3());
+    if (page.spine.length > 1) {
+      this.trunk = new Trunk(material("torso"));
+      this.group.add(this.trunk.mesh);
+      for (const { data, mesh } of this.limbs) mesh.visible = data.group !== "torso";
+    }
     this.pose(0);
   }
 
   pose(time: number): void {
     this.interpolate(time);
-    const [a, b, along] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
-    this.limbs.forEach(({ data, mesh, length }, i) => {
+    const along = new THREE.Vector3();
+    this.limbs.forEach(({ data, mesh, length, tube }, i) => {
+      const { a, b } = tube;
       this.span(data, a, b);
       along.subVectors(b, a);
       const now = along.length();
@@ -49,7 +61,9 @@ export class Dancer {
       this.ends[2 * i].set(a.x, a.y, a.z, data.radius_a);
       this.ends[2 * i + 1].set(b.x, b.y, b.z, data.radius_b);
     });
-    this.centre.fromArray(this.joints, 3 * this.page.centre);
+    this.page.spine.forEach((joint, i) => this.spine[i].fromArray(this.joints, 3 * joint));
+    this.centre.copy(this.spine[0]);
+    this.wrapTrunk();
   }
 
   /** Metres from the floor to the highest point of the body at the time last posed. */
@@ -57,17 +71,22 @@ export class Dancer {
     return Math.max(...this.ends.map((end) => end.z + end.w)) - this.page.floor;
   }
 
+  private wrapTrunk(): void {
+    if (!this.trunk) return;
+    const tubes = this.limbs.filter(({ data }) => data.group === "torso").map(({ tube }) => tube);
+    const hips = this.limbs.find(({ data }) => data.group === "hips")?.tube ?? tubes[0];
+    this.trunk.wrap(tubes, this.spine, hips);
+  }
+
   private limb(data: CapsuleData): Limb {
-    const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
-    this.span(data, a, b);
-    const length = a.distanceTo(b);
-    const part = data.group.replace(/^(left|right)_/, "");
-    const material = new THREE.MeshStandardMaterial({ color: COLOURS[part] ?? COLOURS.torso, roughness: 0.68 });
-    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), material);
+    const tube = { a: new THREE.Vector3(), b: new THREE.Vector3(), radiusA: data.radius_a, radiusB: data.radius_b };
+    this.span(data, tube.a, tube.b);
+    const length = tube.a.distanceTo(tube.b);
+    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), material(data.group));
     mesh.castShadow = mesh.receiveShadow = true;
     this.group.add(mesh);
     this.ends.push(new THREE.Vector4(), new THREE.Vector4());
-    return { data, mesh, length };
+    return { data, mesh, length, tube };
   }
 
   private span(data: CapsuleData, a: THREE.Vector3, b: THREE.Vector3): void {
@@ -95,6 +114,11 @@ export class Dancer {
       this.joints[i] = wp * this.path[p + i] + wq * this.path[q + i] + wr * this.path[r + i] + ws * this.path[s + i];
     }
   }
+}
+
+function material(group: string): THREE.Material {
+  const part = group.replace(/^(left|right)_/, "");
+  return new THREE.MeshStandardMaterial({ color: COLOURS[part] ?? COLOURS.torso, roughness: 0.7 });
 }
 
 /** A surface of revolution about y: two spheres at 0 and `length` and the cone that touches both. */

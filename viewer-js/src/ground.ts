@@ -35,15 +35,15 @@ void main() {
   for (int i = 0; i < ${CONTACTS}; i++) {
     float reach = contacts[i].w * 1.5 + contacts[i].z * 0.7;
     vec2 apart = place.xy - contacts[i].xy;
-    float strength = 0.42 / (1.0 + 40.0 * contacts[i].z * contacts[i].z + 6.0 * contacts[i].z);
+    float strength = 0.24 / (1.0 + 40.0 * contacts[i].z * contacts[i].z + 6.0 * contacts[i].z);
     shade *= 1.0 - strength * exp(-dot(apart, apart) / (reach * reach));
   }
   float dark = 1.0 - shade;
   float radius = 0.42 + 1.5 * (1.0 - exp(-2.2 * sinceBeat));
   float edge = (away - radius) / (0.03 + 0.10 * sinceBeat);
   float ring = exp(-edge * edge) * exp(-4.0 * sinceBeat) * beatStrength;
-  vec3 colour = mix(vec3(0.16, 0.18, 0.26), vec3(0.886, 0.345, 0.243), ring / (ring + dark + lines + 1e-4));
-  gl_FragColor = vec4(colour, clamp(max(dark, lines) + 0.55 * ring, 0.0, 1.0));
+  vec3 colour = mix(vec3(0.2, 0.21, 0.27), vec3(0.886, 0.345, 0.243), ring / (ring + dark + lines + 1e-4));
+  gl_FragColor = vec4(colour, clamp(max(dark, lines) + 0.7 * ring, 0.0, 1.0));
 }`;
 
 export class Ground {

@@ -10,6 +10,8 @@ export const FAINT = "#c6cad5";
 export const ACCENT = "#e2583e";
 export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 
+const QUIET = 0.65; // lifts quiet music, so that its notes are seen too
+
 /** A stretch of time laid on pixels. */
 export interface Span {
   from: number; // [s]
@@ -52,7 +54,7 @@ export function drawWaveform(
     let level = 0;
     for (let i = Math.max(low, 0); i < Math.min(high, wave.values.length); i++) level = Math.max(level, wave.values[i]);
     if (low < 0 || low >= wave.values.length) continue;
-    const height = Math.max(level * half, 0.75);
+    const height = Math.max(level ** QUIET * half, 0.75);
     pen.fillRect(xOf(span, bar * seconds), middle - height, step - 1, 2 * height);
   }
 }

@@ -57,6 +57,7 @@ function expose(page: PageData, clock: Clock, stage: Stage, seek: (time: number)
     playing: clock.playing,
     sound: clock.hasSound,
     duration: page.duration,
+    names: page.joints,
     joints: Array.from(stage.dancer.joints),
   });
   Object.assign(window, { onbeat: { state, seek, play: () => clock.play(), pause: () => clock.pause() } });

@@ -9,12 +9,12 @@ import type { Stage } from "./stage";
 const SPEEDS = [1, 0.5, 0.25];
 const JUMP = 2; // [s]
 
-const LEGEND: [sign: string, colour: string, words: string][] = [
-  ["│", "#8d93a5", "beat of the music, strong where a bar begins"],
-  ["◆", "#262b3d", "stop of the hands"],
-  ["┊", "#262b3d", "join of two clips"],
-  ["▆", "#d5dae4", "intensity of the music"],
-  ["∿", "#2f9c95", "intensity of the dance"],
+const LEGEND: [sign: string, colour: string, short: string, words: string][] = [
+  ["┃", "#8d93a5", "beat", "beat; strong where a bar begins"],
+  ["◆", "#262b3d", "stop", "stop of the hands"],
+  ["┊", "#262b3d", "join", "join of two clips"],
+  ["▆", "#d5dae4", "music", "intensity of the music"],
+  ["∿", "#2f9c95", "dance", "intensity of the dance"],
 ];
 
 export class Panel {
@@ -81,13 +81,9 @@ export class Panel {
   }
 
   private fillFigures(): void {
-    for (const [sign, colour, words] of LEGEND) {
-      const row = document.createElement("li");
-      const mark = document.createElement("b");
-      mark.textContent = sign;
-      mark.style.color = colour;
-      row.append(mark, words);
-      at("legend").append(row);
+    for (const [sign, colour, short, words] of LEGEND) {
+      at("key").append(entry(sign, colour, short));
+      at("legend").append(entry(sign, colour, words));
     }
     for (const metric of this.page.metrics) {
       const [name, value] = [document.createElement("dt"), document.createElement("dd")];
@@ -133,6 +129,15 @@ export class Panel {
     event.preventDefault(); // else space would press the button last clicked, too
     action();
   }
+}
+
+function entry(sign: string, colour: string, words: string): HTMLElement {
+  const row = document.createElement("li");
+  const mark = document.createElement("b");
+  mark.textContent = sign;
+  mark.style.color = colour;
+  row.append(mark, words);
+  return row;
 }
 
 function minutes(seconds: number): string {

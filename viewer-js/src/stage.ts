@@ -17,8 +17,9 @@ export class Stage {
   private readonly camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 200);
   private readonly controls: OrbitControls;
   private readonly ground: Ground;
-  private readonly sun = new THREE.DirectionalLight("#fff4e6", 2.6);
+  private readonly sun = new THREE.DirectionalLight("#fff4e6", 2.1);
   private readonly target = new THREE.Vector3();
+  private drawn = -1; // [s] the time last drawn
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -26,7 +27,7 @@ export class Stage {
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.VSMShadowMap;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.dancer = new Dancer(page);
     this.ground = new Ground(page.floor);
     this.scene.add(this.dancer.group, this.ground.group);
@@ -48,7 +49,9 @@ export class Stage {
     this.sun.target.position.set(centre.x, centre.y, this.page.floor + 0.8);
     this.sun.position.copy(this.sun.target.position).add(new THREE.Vector3(...this.lightFrom()));
     this.ground.update(centre, this.dancer.ends, sinceBeat, strength);
-    this.controls.update(seconds || undefined);
+    const turned = this.controls.update(seconds || undefined);
+    if (!turned && time === this.drawn) return; // a paused page must not heat a phone
+    this.drawn = time;
     this.renderer.render(this.scene, this.camera);
   }
 
@@ -65,20 +68,20 @@ export class Stage {
   }
 
   private addLights(): void {
-    this.scene.add(new THREE.HemisphereLight("#ffffff", "#c9bfb4", 1.5));
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#d8cfc6", 2.1));
     const rim = new THREE.DirectionalLight("#dfe8ff", 0.8);
     rim.position.set(...this.aside(2.5, 3.0));
     const sun = this.sun;
     sun.castShadow = true;
-    sun.shadow.mapSize.set(1024, 1024);
+    sun.shadow.mapSize.set(2048, 2048);
     Object.assign(sun.shadow.camera, { left: -1.8, right: 1.8, top: 1.8, bottom: -1.8, near: 0.5, far: 12 });
     sun.shadow.radius = 5;
-    sun.shadow.blurSamples = 12;
-    sun.shadow.bias = -0.0004;
+    sun.shadow.bias = -0.0005;
+    sun.shadow.normalBias = 0.02;
     this.scene.add(rim, sun, sun.target);
   }
 
-  /** A light from above, in front of the dancer's left as he first stands. */
+  /** A light from above, before and beside the dancer as first seen. */
   private lightFrom(): [number, number, number] {
     const yaw = this.page.facing - 0.75;
     return [-Math.sin(yaw) * 2.6, Math.cos(yaw) * 2.6, 4.6];
@@ -93,8 +96,8 @@ export class Stage {
     const height = this.dancer.height;
     const yaw = this.page.facing + 0.42;
     this.target.set(this.dancer.centre.x, this.dancer.centre.y, this.page.floor + 0.5 * height);
-    const narrow = Math.min(this.camera.aspect / 0.95, 1);
-    const away = (0.86 * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+    const narrow = Math.min(this.camera.aspect / 0.74, 1);
+    const away = (0.78 * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
     const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
     this.camera.position.copy(this.target).addScaledVector(out, away);
     this.controls.target.copy(this.target);
@@ -108,6 +111,7 @@ export class Stage {
     if (!width || !height) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
+    this.drawn = -1;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
   }

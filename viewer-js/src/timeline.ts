@@ -80,7 +80,9 @@ export class Timeline {
     const clips = this.page.moves.length ? 22 : 0;
     const middle = (height - clips) / 2 + 4;
     pen.clearRect(0, 0, width, height);
-    pen.fillStyle = "#f6f7f9";
+    pen.fillStyle = "#fafafb";
+    pen.fillRect(0, 0, width, height);
+    pen.fillStyle = "#f1f3f6";
     const [left, right] = [Math.max(lanes.xOf(span, 0), 0), Math.min(lanes.xOf(span, this.page.duration), width)];
     pen.fillRect(left, 0, right - left, height - clips - 4);
     pen.font = lanes.FONT;

@@ -71,7 +71,11 @@ class MetricData(msgspec.Struct, frozen=True):
 
 
 class PageData(msgspec.Struct, frozen=True):
-    """Everything the page shows."""
+    """Everything the page shows.
+
+    ``spine`` are the joints from the waist up to the neck, or the root alone where the body has no roles; the camera
+    follows the first.
+    """
 
     version: int
     title: str
@@ -83,7 +87,7 @@ class PageData(msgspec.Struct, frozen=True):
     joints: list[str]
     capsules: list[CapsuleData]
     path: PathData
-    centre: int
+    spine: list[int]
     facing: float
     floor: float
     audio: AudioData | None

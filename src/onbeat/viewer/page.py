@@ -95,10 +95,10 @@ def page_data(
     """What the page shows, as its contract has it; arguments and errors as :func:`render_page`."""
     dance = _document(document)
     body = _body(motion)
-    shape = [c for c in capsules(motion.skeleton, body)]
+    shape = capsules(motion.skeleton, body)
     every = int(np.ceil(motion.fps / MAX_FPS - 1e-9))
-    centre = body["hips"] if body else 0
-    joints = sorted({centre, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
+    spine = _spine(body)
+    joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
     positions = motion.positions[::every, joints]
     shape = [c._replace(joint_a=joints.index(c.joint_a), joint_b=joints.index(c.joint_b)) for c in shape]
     encoded, waveform = _sound(audio)
@@ -111,9 +111,9 @@ def page_data(
         fps=motion.fps / every,
         frames=len(positions),
         joints=[motion.skeleton.names[joint] for joint in joints],
-        capsules=[CapsuleData(*(round(v, 4) if isinstance(v, float) else v for v in c)) for c in shape],
+        capsules=[_capsule(c) for c in shape],
         path=pack_path(positions),
-        centre=joints.index(centre),
+        spine=[joints.index(joint) for joint in spine],
         facing=_facing(motion, body),
         floor=_floor(positions, shape),
         audio=encoded,
@@ -160,6 +160,18 @@ def _sound(audio: tuple[Float32, int] | None) -> tuple[AudioData | None, CurveDa
         return None, pack_curve(np.zeros(0), mp3.WAVEFORM_RATE)
     samples, rate = audio
     return mp3.encode(samples, rate), mp3.waveform(samples, rate)
+
+
+def _spine(body: Body | None) -> list[int]:
+    """The joints along the trunk, from the waist up."""
+    if body is None:
+        return [0]
+    return list(dict.fromkeys(body[role] for role in ("hips", "chest", "neck") if role in body))
+
+
+def _capsule(c: Capsule) -> CapsuleData:
+    radii = round(c.radius_a, 4), round(c.radius_b, 4)
+    return CapsuleData(c.joint_a, c.joint_b, *radii, c.group, round(c.start, 4), round(c.end, 4))
 
 
 def _facing(motion: Motion, body: Body | None) -> float:
