@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -40,14 +42,14 @@ def _song(path: Path) -> Song:
         raise OnbeatError(f"cannot read {path}: {error.strerror}; give a song or what `onbeat listen` wrote") from None
 
 
-def _motion(path: Path, fps: float | None) -> Motion:
-    """The motion; what its reader warns of becomes a line on stderr."""
+@contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """What readers warn of becomes a line on stderr."""
     with warnings.catch_warnings(record=True) as noted:
-        warnings.simplefilter("always")
-        motion = read_motion(path, fps)
+        warnings.simplefilter("always", UserWarning)
+        yield
     for warning in noted:
         print(f"onbeat: {warning.message}", file=sys.stderr)  # noqa: T201
-    return motion
 
 
 def _unplanned(scores: Scores) -> Scores:
@@ -149,7 +151,8 @@ def evaluate_command(
     """
     if not start >= 0:
         raise MetricError(f"--start is {start:g} s; give a second of the song, 0 or later")
-    danced, song = _motion(motion, fps), _song(music)
+    with _warnings_as_lines():
+        danced, song = read_motion(motion, fps), _song(music)
     scores = evaluate_motion(danced, song.cut(start, max(song.duration - start, 0.0)), seed)
     if json:
         document: dict[str, Any] = {"version": VERSION, "motion": motion.name, "song": music.name, **scores}
