@@ -1,4 +1,4 @@
-"""How well the methods hear beats: a table over a folder of ``NAME.ogg`` + ``NAME.beats`` (seconds TAB place in the bar).
+"""How well the methods hear beats: a table over a folder of ``NAME.ogg`` + ``NAME.beats`` (seconds TAB bar position).
 
 Usage: ``python benchmarks/listen.py FOLDER [--each] [--methods barpointer,shiratori2006]``. Scores are mir_eval's, with
 the first 5 s left out; F at ±70 ms.
@@ -14,7 +14,6 @@ import mir_eval
 import numpy as np
 
 from onbeat.music.listen import METHODS, listen
-from onbeat.music.tempo import tempo_of
 
 AUDIO = (".ogg", ".wav", ".flac", ".mp3")
 COLUMNS = ("F", "CMLt", "AMLt", "downbeat F", "lag ms", "right tempo", "right meter", "CPU s / s")

@@ -9,7 +9,7 @@ from scipy.ndimage import maximum_filter1d
 
 from onbeat._shapes import Array, Float32, Ints, Times
 from onbeat.music.bars import downbeat_log_odds, find_downbeats
-from onbeat.music.chords import chord_change, new_harmony
+from onbeat.music.chords import chord_change, harmony_slices, new_harmony
 from onbeat.music.decode import decode_beats
 from onbeat.music.hearing import Hearing, Progress, hear
 from onbeat.music.intensity import intensity, normalised
@@ -23,7 +23,6 @@ STEADINESS = 60.0  # cost of a change of tempo, per unit of its ratio
 PRIOR_WEIGHT = 3.0  # per second
 DELAY = 0.0015  # [s] midway between what clicks and drums (5 ms early) and soft attacks (7 ms late) need
 REACH = 0.025  # [s] around a frame of the decoder, in which the attack of the beat is looked for
-CUE_WEIGHTS = np.array([1.0, 0.6, 0.3])  # chord change, bass accent, accent
 
 
 def refine(times: Times, attacks: Float32, rate: float) -> Times:
@@ -65,10 +64,9 @@ def listen_barpointer(blocks: Iterable[Float32], rate: int, progress: Progress |
     times = refine(frames / hearing.onset_rate, hearing.attacks, hearing.attack_rate) - DELAY
     inside = (times >= 0.0) & (times < hearing.duration)
     frames, times = frames[inside], times[inside]
-    change = chord_change(hearing.tones, hearing.tone_rate, times)
+    slices = harmony_slices(hearing.tones, hearing.tone_rate, times)
     accent = accents(flux, frames)
-    cues = np.stack([change, accent[:, 0] + accent[:, 1], accent.mean(axis=1)], axis=1)
-    downbeats, meter = find_downbeats(downbeat_log_odds(cues, CUE_WEIGHTS)) if len(times) else (np.zeros(0, bool), 4)
+    downbeats, meter = find_downbeats(downbeat_log_odds(slices, accent[:, 0]))
     intensity_times, values = intensity(hearing.tones, hearing.loudness, hearing.tone_rate, hearing.duration)
     return Song(
         duration=hearing.duration,
@@ -76,7 +74,7 @@ def listen_barpointer(blocks: Iterable[Float32], rate: int, progress: Progress |
         meter=meter,
         beats=times,
         downbeats=times[downbeats],
-        chord_change=change,
+        chord_change=chord_change(slices),
         intensity_times=intensity_times,
         intensity=values,
         method=NAME,

@@ -1,26 +1,51 @@
-"""Which beats are downbeats: the most likely meter and bar phase, from chord changes and accents at the beats."""
+"""Which beats are downbeats: the most likely meter and bar phase, from chord changes and the bass drum at the beats.
+
+The weights are a logistic regression on songs of a procedural band; no recording was looked at to set them.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
 from onbeat._shapes import Array, Bools, Ints
+from onbeat.music.chords import fold_octaves
 
 METERS = (2, 3, 4, 5, 6, 7)
 METER_PRIOR = (0.02, 0.12, 0.8, 0.03, 0.02, 0.01)
 BREAK = 0.002  # chance, at each bar, that another bar length follows or the bar starts anew
-USUAL_SHARE = 0.25  # of the beats are downbeats
+# The cues: distance of the harmony one beat and two beats before and after, accent in the lowest band.
+CUE_WEIGHTS = np.array([0.40, 0.76, 1.02])
+CUE_SCALES = np.array([0.15, 0.14, 2.1])  # least deviation taken for a signal: a drum solo has no harmony
+BIAS = -0.5  # log odds of a beat with mean cues, over those of any beat
 
 
-def standardised(values: Array) -> Array:
-    """Values with mean 0 and deviation 1, clipped to ±3."""
-    return np.clip((values - values.mean()) / max(float(values.std()), 1e-9), -3.0, 3.0)
+def harmony_distance(chroma: Array, span: int) -> Array:
+    """One minus the cosine between the chroma of ``span`` beats from each beat on and of as many before: (B,).
+
+    >>> harmony_distance(np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), 1).tolist()
+    [0.0, 0.0, 1.0]
+    """
+    sums = np.concatenate([np.zeros((1, chroma.shape[1])), np.cumsum(chroma, axis=0)])
+    beat = np.arange(len(chroma))
+    after = sums[np.minimum(beat + span, len(chroma))] - sums[beat]
+    before = sums[beat] - sums[np.maximum(beat - span, 0)]
+    lengths = np.linalg.norm(after, axis=1) * np.linalg.norm(before, axis=1)
+    alike = (after * before).sum(axis=1) / np.maximum(lengths, 1e-9)
+    return np.where(lengths > 1e-9, 1.0 - alike, 0.0)
 
 
-def downbeat_log_odds(cues: Array, weights: Array) -> Array:
-    """Log odds that each beat is a downbeat: (B,), from cues (B, C) with how much each says (C,)."""
-    columns = np.stack([standardised(column) for column in cues.T], axis=1)
-    return columns @ weights + np.log(USUAL_SHARE / (1.0 - USUAL_SHARE))
+def downbeat_log_odds(slices: Array, bass_accent: Array) -> Array:
+    """How much more each beat sounds like a downbeat than like another beat: (B,) log likelihood ratios.
+
+    Parameters
+    ----------
+    slices : (B, semitones) what sounds from each beat to the next.
+    bass_accent : (B,) onset strength of the lowest band at each beat.
+    """
+    chroma = fold_octaves(slices)
+    cues = np.stack([harmony_distance(chroma, 1), harmony_distance(chroma, 2), bass_accent], axis=1)
+    scaled = (cues - cues.mean(axis=0)) / np.maximum(cues.std(axis=0), CUE_SCALES)
+    return np.clip(scaled, -3.0, 3.0) @ CUE_WEIGHTS + BIAS
 
 
 def _states() -> tuple[Ints, Ints, Array]:
@@ -45,7 +70,7 @@ def find_downbeats(log_odds: Array) -> tuple[Bools, int]:
         return np.zeros(0, np.bool_), 4
     meters, positions, change = _states()
     prior = np.log(np.array([METER_PRIOR[METERS.index(int(meter))] / meter for meter in meters]))
-    heard = np.where(positions == 0, -np.logaddexp(0.0, -log_odds)[:, None], -np.logaddexp(0.0, log_odds)[:, None])
+    heard = np.where(positions == 0, log_odds[:, None], 0.0)
     score = prior + heard[0]
     came = np.zeros(heard.shape, np.int64)
     for beat in range(1, len(heard)):

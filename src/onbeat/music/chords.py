@@ -29,6 +29,8 @@ def between_beats(frames: Array | Float32, rate: float, beats: Times) -> Array:
     >>> between_beats(np.arange(4.0)[:, None], 1.0, np.array([0.0, 2.0])).ravel().tolist()
     [0.5, 2.5]
     """
+    if not len(beats):
+        return np.zeros((0, frames.shape[1]))
     last = beats[-1] + (beats[-1] - beats[-2] if len(beats) > 1 else 1.0)
     edges = np.clip(np.round(np.append(beats, last) * rate).astype(np.int64), 0, len(frames))
     sums = np.concatenate([np.zeros((1, frames.shape[1])), np.cumsum(frames, axis=0, dtype=np.float64)])
@@ -49,14 +51,18 @@ def fold_octaves(tones: Array) -> Array:
     return chroma / np.maximum(np.linalg.norm(chroma, axis=1, keepdims=True), 1e-9)
 
 
-def chord_change(tones: Float32, rate: float, beats: Times) -> Array:
+def harmony_slices(tones: Float32, rate: float, beats: Times) -> Array:
+    """What stands out of the semitones from each beat to the next: (B, semitones)."""
+    return between_beats(prominence(tones), rate, beats)
+
+
+def chord_change(slices: Array) -> Array:
     """How much the harmony at each beat differs from that of the beat before: (B,), 0…1.
 
     The mean of what Eqs. 5–6 measure (new tones under 500 Hz, as a share of all) and of the distance of the chroma.
     """
-    if not len(beats):
+    if not len(slices):
         return np.zeros(0)
-    slices = between_beats(prominence(tones), rate, beats)
     bass = slices[:, :BASS_TONES]
     new = np.maximum(np.diff(bass, axis=0), 0.0).sum(axis=1) / np.maximum(bass[1:].sum(axis=1), 1e-9)
     chroma = fold_octaves(slices)

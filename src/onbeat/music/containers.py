@@ -19,7 +19,7 @@ def _import_av(path: Path) -> Any:
         import av
     except ImportError:
         raise MissingExtraError(
-            f"{path}: {path.suffix} needs PyAV: pip install 'onbeat[video]', or convert the song to wav, flac, ogg or mp3"
+            f"{path}: {path.suffix} needs PyAV: pip install 'onbeat[video]', or convert it to wav, flac, ogg or mp3"
         ) from None
     return av
 

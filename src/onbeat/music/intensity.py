@@ -36,7 +36,7 @@ def melody_power(tones: Float32) -> Array:
 
 
 def intensity(tones: Float32, loudness: Float32, rate: float, duration: float) -> tuple[Times, Array]:
-    """Times at 10 Hz and intensity 0…1: the melody of Eq. 7 and the whole sound, both on the ear's scale of loudness."""
+    """Times at 10 Hz and intensity 0…1: the melody of Eq. 7 and the whole sound, both as loud as the ear has them."""
     times = np.arange(int(np.ceil(duration * RATE)) + 1) / RATE
     times = times[times <= duration]
 

@@ -17,7 +17,7 @@ CHUNK = 30000  # frames worked on at a time
 
 
 def rise(levels: Float32, lag: int) -> Float32:
-    """Increase of level over ``lag`` frames, against the loudest of three neighbouring bands then (SuperFlux, Böck 2013).
+    """Increase of level over ``lag`` frames, against the loudest of three bands then (SuperFlux, Böck 2013).
 
     A voice that glides into the next band is no onset.
     """

@@ -1,4 +1,4 @@
-"""Hearing as published: T. Shiratori, A. Nakazawa, K. Ikeuchi, "Dancing-to-Music Character Animation", 2006, section III.
+"""Hearing as published: Shiratori, Nakazawa & Ikeuchi, "Dancing-to-Music Character Animation", 2006, section III.
 
 Kept literal, for comparison: one band of linear power, a beat interval from the autocorrelation alone (so halves and
 doubles of the tempo occur), beats that follow the onsets and lag behind them a little. The paper stops at the degree of
@@ -162,7 +162,5 @@ def listen_shiratori2006(blocks: Iterable[Float32], rate: int, progress: Progres
         intensity_times=times,
         intensity=normalised(np.interp(times, beats, melody_intensity(peaks, frequencies))),
         method=NAME,
-        beat_strength=np.clip(
-            onsets[np.round(beats * frame_rate).astype(np.int64)] / max(float(onsets.max()), 1e-30), 0.0, 1.0
-        ),
+        beat_strength=onsets[np.round(beats * frame_rate).astype(np.int64)] / max(float(onsets.max()), 1e-30),
     )
