@@ -109,7 +109,7 @@ def follow(
     smoothing: float = 0.5,
     side: float = 0.35,
     elevation: float = 0.2,
-    margin: float = 1.15,
+    margin: float = 1.1,
     shift: float = 0.0,
 ) -> CameraPath:
     """A camera that follows the dancer and keeps all of the figure in view in every frame.

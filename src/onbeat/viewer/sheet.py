@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import struct
 import zlib
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,8 +36,9 @@ def contact_sheet(motion: Motion, times: Times, columns: int = 6, size: Size = (
     figure = Figure.of(motion.skeleton)
     ground = ground_height(figure, motion)
     poses = motion.at(np.asarray(times, np.float64))
-    # A still camera for each pose: smoothing over a sheet's distant moments would mean nothing.
+    # A camera of its own for each pose, as smoothing over a sheet's distant moments would mean nothing; one distance.
     path = follow(poses, figure, ground, size=size, smoothing=0.0, side=0.45)
+    path = replace(path, distances=np.full(len(poses), path.distances.max()))
     stage = Stage.lit_from(path.azimuth, ground, fine=3)
     rows = -(-len(poses) // columns)
     sheet = np.full((rows * size[1], columns * size[0], 3), 255, np.uint8)

@@ -19,6 +19,7 @@ from onbeat.motion import Motion
 from onbeat.music.song import Song
 from onbeat.viewer.camera import Size, follow
 from onbeat.viewer.figure import Figure, ground_height
+from onbeat.viewer.planes import yuv420
 from onbeat.viewer.raster import render_frame
 from onbeat.viewer.sound import SoundTrack
 from onbeat.viewer.stage import Stage
@@ -114,7 +115,7 @@ def _encode(
         level = None if audio is None else loudness(audio[0], size[0], count / fps, audio[1])
         strip = Strip.of(song, level, stops, count / fps, max(4, int(size[1] * STRIP)), size[0])
         for number, picture in enumerate(pictures(motion, fps, size, strip)):
-            frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
+            frame = av.VideoFrame.from_ndarray(yuv420(picture), format="yuv420p")
             frame.pts = number
             container.mux(video.encode(frame))
             if sound is not None:
@@ -128,11 +129,15 @@ def _encode(
 
 def _video_stream(container: Any, fps: float, size: Size) -> Any:
     rate = Fraction(fps).limit_denominator(1001)
-    # One thread: the coder's bytes depend on how many it has.
-    options = {"crf": "19", "preset": "veryfast", "threads": "1", "x264-params": "keyint=60"}
+    # One thread, as the coder's bytes depend on how many it has; no macroblock tree and no weighted prediction, as
+    # with them the bytes were seen to differ between runs.
+    options = {"crf": "19", "preset": "veryfast", "threads": "1", "x264-params": "keyint=60:mbtree=0:weightp=0"}
     stream = container.add_stream("libx264", rate=rate, options=options)
     stream.width, stream.height = size
     stream.pix_fmt = "yuv420p"
+    # BT.709, limited range: told, or players guess by the picture's size.
+    coded = stream.codec_context
+    coded.colorspace = coded.color_primaries = coded.color_trc = coded.color_range = 1
     stream.time_base = stream.codec_context.time_base = 1 / rate
     return stream
 

@@ -1,0 +1,76 @@
+"""The drawn body: alike on both sides, as large as its skeleton, whole where a file lacks head, hands or toes."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from onbeat.motion import Body, Skeleton
+from onbeat.viewer.figure import Figure
+from onbeat.viewer.shape import GROUPS, capsules
+
+LIMBS = {
+    "Arm": (0.18, 0.0, 1.42),
+    "ForeArm": (0.45, 0.0, 1.42),
+    "Hand": (0.7, 0.0, 1.42),
+    "UpLeg": (0.1, 0.0, 0.9),
+    "Leg": (0.1, 0.0, 0.5),
+    "Foot": (0.1, 0.0, 0.08),
+}
+ABOVE = {"Arm": "Chest", "ForeArm": "Arm", "Hand": "ForeArm", "UpLeg": "Hips", "Leg": "UpLeg", "Foot": "Leg"}
+SPINE = {"Hips": 0.95, "Chest": 1.3, "Neck": 1.48, "Head": 1.6}
+
+
+def person(size: float = 1.0, without: tuple[str, ...] = ()) -> Skeleton:
+    places = {name: (0.0, 0.0, z) for name, z in SPINE.items() if name not in without}
+    parents = dict(zip(list(places)[1:], list(places), strict=False))
+    for side, sign in (("Left", -1.0), ("Right", 1.0)):
+        for name, (x, y, z) in LIMBS.items():
+            places[side + name] = (sign * x, y, z)
+            parents[side + name] = ABOVE[name] if ABOVE[name] in places else side + ABOVE[name]
+    names = list(places)
+    at = size * np.array([places[name] for name in names])
+    index = [-1] + [names.index(parents[name]) for name in names[1:]]
+    return Skeleton(names, index, np.vstack((np.zeros(3), at[1:] - at[index[1:]])))
+
+
+def test_both_sides_are_alike() -> None:
+    skeleton = person()
+    shape = capsules(skeleton, Body.of(skeleton))
+    assert {capsule.group for capsule in shape} <= set(GROUPS)
+
+    def side(name: str) -> Counter[tuple[object, ...]]:
+        return Counter((c.group[len(name) :], *c[2:4], *c[5:]) for c in shape if c.group.startswith(name))
+
+    assert side("left") == side("right")
+    assert len(side("left")) >= 6
+
+
+def test_a_smaller_body_has_the_same_shape() -> None:
+    heights = []
+    for size in (1.0, 0.6):
+        skeleton = person(size)
+        low, high = Figure.of(skeleton).bounds(skeleton.rest_positions)
+        heights.append((high - low) / size)
+    assert heights[0] == pytest.approx(heights[1], rel=1e-6)
+
+
+@pytest.mark.parametrize("without", [(), ("Head",), ("Neck", "Head")])
+def test_there_is_a_skull_above_the_shoulders(without: tuple[str, ...]) -> None:
+    skeleton = person(without=without)
+    shape = capsules(skeleton, Body.of(skeleton))
+    figure = Figure.from_capsules(shape)
+    ends = figure.ends(skeleton.rest_positions)
+    skull = ends[[i for i, capsule in enumerate(shape) if capsule.group == "head"]]
+    top = skull[..., 2].max() + SPINE["Hips"]  # the rest pose has the hips at the origin
+    assert 1.55 < top < 1.95
+
+
+def test_hands_reach_past_the_wrists_and_heels_below_the_ankles() -> None:
+    skeleton = person()
+    figure = Figure.of(skeleton)
+    low, high = figure.bounds(skeleton.rest_positions)
+    assert high[0] - low[0] > 2 * (0.7 + 0.1)
+    assert low[2] + 0.95 < 0.05
