@@ -9,7 +9,6 @@ would be too short the pelvis sinks a little.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from onbeat._shapes import Array, Bools, Ints, Positions, Rotations, Times
 from onbeat.dance.blend import Windows, quintic
 from onbeat.dance.pelvis import sunk
 from onbeat.dance.sources import Pose, contact_role
+from onbeat.dance.steps import Steps
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.contacts import SIDES, runs
@@ -25,10 +25,6 @@ from onbeat.motion.legs import place_foot
 
 EASE, QUICKEST = 0.3, 0.12
 """Seconds in which a foot leaves its anchor or comes to it; the second where its step is shorter."""
-PARTED = 0.5
-"""Part of a window in whose middle a foot is in the air if it rests on one side of the join only."""
-FARTHEST = 0.12
-"""Metres: feet of the two clips farther apart than this do not meet; the foot steps instead."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +57,7 @@ def plant_feet(
     body: Body,
     pose: Pose,
     shown: tuple[Rotations, Positions],
-    contacts: Bools,
+    steps: Steps,
     moves: Ints,
     windows: Windows,
     times: Times,
@@ -73,7 +69,7 @@ def plant_feet(
     body : roles of the skeleton.
     pose : F blended poses.
     shown : world rotations (F, J, 4) and positions (F, J, 3) of the clips before blending.
-    contacts : (F, 2) true where the left, right foot rests.
+    steps : when each foot rests, and how high it is lifted where it must step.
     moves : (F,) the move each frame shows.
     windows : of the joins.
     times : (F,) seconds.
@@ -85,7 +81,8 @@ def plant_feet(
     changed = np.zeros(len(times), bool)
     for number, side in enumerate(SIDES):
         foot = Foot.of(body, side, world)
-        offsets = _offsets(Foot.of(body, side, shown), foot, contacts[:, number], moves, windows, times)
+        offsets = _offsets(Foot.of(body, side, shown), foot, steps.contacts[:, number], moves, windows, times)
+        offsets[:, 2] += steps.lifts[:, number]
         targets[side] = Foot(
             foot.ankles + offsets[:, :3], foot.soles, rot.multiply(rot.exp(offsets[:, 3:]), foot.turns)
         )
@@ -93,19 +90,6 @@ def plant_feet(
     roots = pose.roots - sunk(body, world, {side: foot.ankles for side, foot in targets.items()}, changed, times)
     frames = np.flatnonzero(changed | np.any(roots != pose.roots, axis=1))
     return _stepped(body, Pose(pose.rotations, roots), targets, frames)
-
-
-def parted(contacts: Bools, moves: Ints, windows: Windows, times: Times) -> Bools:
-    """Contacts (F, 2) less the middle of windows in which a foot rests on one side of the join and swings on the other.
-
-    There the foot must have left the floor before the join, or come to it after, not at a stroke.
-    """
-    out = contacts.copy()
-    for frame in (np.flatnonzero(np.diff(moves)) + 1).tolist():
-        join = int(moves[frame - 1])
-        near = np.abs(times - windows.centres[join]) < PARTED * windows.spans[join] / 2
-        out[np.ix_(near, contacts[frame - 1] != contacts[frame])] = False
-    return out
 
 
 def _stepped(body: Body, pose: Pose, targets: dict[str, Foot], frames: Ints) -> Pose:
@@ -125,21 +109,12 @@ def _offsets(shown: Foot, blended: Foot, rests: Bools, moves: Ints, windows: Win
     inside = windows.join_at(times) >= 0
     for first, last in runs(rests):
         if inside[first:last].any():
-            for start, end in _unbroken(shown, moves, first, last):
-                span = slice(start, end)
-                anchored = _anchored(shown.part(span), moves[span], windows, times[span])
-                turned = rot.log(rot.multiply(anchored.turns, rot.inverse(blended.turns[span])))
-                offsets[span] = np.concatenate((anchored.ankles - blended.ankles[span], turned), axis=1)
-                held[span] = True
+            span = slice(first, last)
+            anchored = _anchored(shown.part(span), moves[span], windows, times[span])
+            turned = rot.log(rot.multiply(anchored.turns, rot.inverse(blended.turns[span])))
+            offsets[span] = np.concatenate((anchored.ankles - blended.ankles[span], turned), axis=1)
+            held[span] = True
     return _eased(offsets, held, rests, times)
-
-
-def _unbroken(foot: Foot, moves: Ints, first: int, last: int) -> list[tuple[int, int]]:
-    """A run cut at joins where the feet of the two clips are too far apart to meet."""
-    joins = first + 1 + np.flatnonzero(np.diff(moves[first:last]))
-    apart = np.linalg.norm((foot.soles[joins] - foot.soles[joins - 1])[:, :2], axis=1)
-    edges = [first, *joins[apart > FARTHEST].tolist(), last]
-    return list(pairwise(edges))
 
 
 def _anchored(foot: Foot, moves: Ints, windows: Windows, times: Times) -> Foot:

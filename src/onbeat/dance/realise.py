@@ -9,9 +9,10 @@ import numpy as np
 
 from onbeat._shapes import Array, Bools, Ints, Times
 from onbeat.dance.blend import BLENDS, Blend, Windows
-from onbeat.dance.feet import parted, plant_feet
+from onbeat.dance.feet import plant_feet
 from onbeat.dance.plan import DancePlan
-from onbeat.dance.sources import Pose, Sources, Warp, placed, standing_at
+from onbeat.dance.sources import Pose, Sources, Warp, contact_role, placed, standing_at
+from onbeat.dance.steps import steps_between
 from onbeat.dance.windows import fitted_windows, link_speeds
 from onbeat.errors import PlanError
 from onbeat.motion.body import Body
@@ -65,7 +66,8 @@ def realise(
     blend : how joins are blended, a name in ``BLENDS``.
     plant : whether feet that rest on the floor are kept in place around joins.
     standing : for each clip, (F, 2) true where the left, right foot rests; found in the clips where not given.
-    peaks : (J,) rad/s, the fastest each joint's bone ever turns; taken from the moves shown where not given.
+    peaks : (J,) rad/s, the fastest each joint's bone may turn in a join, such as the library's own peaks; where not
+        given, as fast as it turns in the two moves beside the join.
 
     Raises
     ------
@@ -86,17 +88,17 @@ def realise(
     moves = sources.moves_at(times)
     shown = sources.pose(moves, times)
     shown_world = forward_kinematics(sources.skeleton, shown.rotations, shown.roots)
-    if peaks is None:
-        peaks = _peaks(sources, shown_world[1], moves, times)
-    windows = fitted_windows(sources, how, peaks)
+    limits = _peaks(sources, shown_world[1], moves, times) if peaks is None else peaks
+    windows = fitted_windows(sources, how, limits)
     pose = _joined(sources, windows, how, shown, times)
-    contacts = parted(standing_at(sources, standing, moves, times), moves, windows, times)
+    soles = shown_world[1][:, body.indices(f"left_{contact_role(body)}", f"right_{contact_role(body)}")]
+    steps = steps_between(standing_at(sources, standing, moves, times), soles, moves, windows, times)
     if plant:
-        pose = plant_feet(body, pose, shown_world, contacts, moves, windows, times)
+        pose = plant_feet(body, pose, shown_world, steps, moves, windows, times)
     roots = pose.roots - _middle(pose.roots)
     motion = Motion(sources.skeleton, pose.rotations, roots, fps, name="dance")
     spans = tuple(zip(windows.starts.tolist(), windows.ends.tolist(), strict=True))
-    return Realised(motion, spans, contacts, sources.clip_of[moves], sources.seconds(moves, times))
+    return Realised(motion, spans, steps.contacts, sources.clip_of[moves], sources.seconds(moves, times))
 
 
 def _blend(name: str) -> Blend:
@@ -117,12 +119,12 @@ def _joined(sources: Sources, windows: Windows, blend: Blend, shown: Pose, times
 
 
 def _peaks(sources: Sources, positions: Array, moves: Ints, times: Times) -> Array:
-    """(J,) rad/s, the fastest each bone turns inside the moves shown."""
-    if len(times) < 2:
-        return np.full(len(sources.skeleton), np.inf)
-    speeds = link_speeds(sources.skeleton, positions, times)
-    within = np.diff(moves) == 0
-    return speeds[within].max(axis=0, initial=0.0)
+    """(K, J) rad/s, the fastest each bone turns in the two moves beside each join."""
+    fastest = np.full((len(sources.starts), len(sources.skeleton)), 0.0)
+    if len(times) > 1:
+        within = np.diff(moves) == 0
+        np.maximum.at(fastest, moves[1:][within], link_speeds(sources.skeleton, positions, times)[within])
+    return np.maximum(fastest[:-1], fastest[1:])
 
 
 def _middle(roots: Array) -> Array:

@@ -10,7 +10,7 @@ from onbeat.dance.sources import Sources
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.skeleton import Skeleton
 
-SHORTEST, LONGEST = 0.35, 0.5
+SHORTEST, LONGEST = 0.3, 0.5
 """Seconds a window lasts at least and at most, where the moves beside it are long enough."""
 ROOM = 0.9
 """Part of the shorter of the two moves beside it that a window may fill."""
@@ -24,8 +24,10 @@ def fitted_windows(sources: Sources, blend: Blend, peaks: Array) -> Windows:
     """A window for each join, bounded to ``SHORTEST``…``LONGEST`` and to less than the moves beside it.
 
     Shiratori 2006, Sec. IV-B: the duration follows from the angular distance of the poses and the greatest angular
-    velocities ``peaks`` (J,) in rad/s of the links in the data. Spans are tried from the shortest up.
+    velocities ``peaks`` in rad/s of the links in the data, (J,) or (K, J) for each join. Spans are tried from the
+    shortest up.
     """
+    peaks = np.broadcast_to(peaks, (len(sources.joins), len(sources.skeleton)))
     lengths = np.diff(np.concatenate((sources.starts, [sources.plan.duration])))
     room = ROOM * np.minimum(lengths[:-1], lengths[1:])
     spans = np.minimum(SHORTEST, room)
@@ -56,4 +58,4 @@ def _too_fast(sources: Sources, windows: Windows, joins: Ints, blend: Blend, pea
     pose = blend(sources, windows, np.repeat(joins, SAMPLES), times.ravel())
     _, positions = forward_kinematics(sources.skeleton, pose.rotations, pose.roots)
     speeds = link_speeds(sources.skeleton, positions.reshape(len(joins), SAMPLES, -1, 3), times)
-    return np.any(speeds > peaks, axis=(1, 2))
+    return np.any(speeds > peaks[joins][:, None], axis=(1, 2))
