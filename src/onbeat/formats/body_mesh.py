@@ -67,7 +67,9 @@ def _bones(skeleton: Skeleton) -> list[tuple[Positions, Positions, float, float,
         if length > 1e-4:
             start, end = radii[parent]
             start, end = min(start, 0.6 * length + 0.01), min(end, 0.6 * length + 0.01)
-            made.append((rest[parent], rest[joint], start, end, parent))
+            # The ball at a tip ends there; at a joint it is centred there.
+            short = min(end, 0.9 * length) / length if skeleton.end_sites[joint] else 0.0
+            made.append((rest[parent], rest[joint] - short * skeleton.offsets[joint], start, end, parent))
     return made or [(rest[0], rest[0] + [0, 0, 1e-3], 0.05, 0.05, 0)]
 
 

@@ -164,7 +164,7 @@ class _Hierarchy:
         if joint.channels or joint.end:
             raise FormatError(f"{self.label}:{line}: joint {joint.name!r} cannot have these CHANNELS")
         for _ in range(count):
-            word, line = self._next()
+            word, _ = self._next()
             found = _CHANNEL.fullmatch(word)
             if found is None:
                 raise FormatError(
