@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 from onbeat.motion.skeleton import Skeleton
 
@@ -11,12 +12,17 @@ CENTRE = ("Hips", "Spine", "Chest", "Neck", "Head", "HeadEnd")
 ARM = ("Shoulder", "Arm", "ForeArm", "Hand", "HandEnd")
 LEG = ("UpLeg", "Leg", "Foot", "ToeBase", "ToeEnd")
 NAMES = (*CENTRE, *(side + name for side in ("Left", "Right") for name in (*ARM, *LEG)))
-_ABOVE = dict(zip(CENTRE[1:], CENTRE[:-1], strict=True))
-for _side in ("Left", "Right"):
-    _ABOVE |= {_side + below: _side + above for above, below in zip(ARM[:-1], ARM[1:], strict=True)}
-    _ABOVE |= {_side + below: _side + above for above, below in zip(LEG[:-1], LEG[1:], strict=True)}
-    _ABOVE |= {_side + "Shoulder": "Chest", _side + "UpLeg": "Hips"}
-PARENTS = tuple(NAMES.index(_ABOVE[name]) if name in _ABOVE else -1 for name in NAMES)
+
+
+def _parent_names() -> dict[str, str]:
+    above = {below: upper for upper, below in pairwise(CENTRE)}
+    for side in ("Left", "Right"):
+        above |= {side + below: side + upper for chain in (ARM, LEG) for upper, below in pairwise(chain)}
+        above |= {side + "Shoulder": "Chest", side + "UpLeg": "Hips"}
+    return above
+
+
+PARENTS = (-1, *(NAMES.index(_parent_names()[name]) for name in NAMES[1:]))
 
 
 @dataclass(frozen=True)

@@ -64,8 +64,8 @@ class _Stage:
     origin: Array = field(default_factory=lambda: np.zeros(2))
     yaw: float = 0.0
     weight: float = 0.5
-    feet: dict[str, _Foot] = field(default_factory=lambda: {})
-    pelvis: list[tuple[float, float, float, float, float]] = field(default_factory=lambda: [])
+    feet: dict[str, _Foot] = field(default_factory=dict[str, _Foot])
+    pelvis: list[tuple[float, ...]] = field(default_factory=list[tuple[float, ...]])
 
     def world(self, x: float, y: float) -> Array:
         """A point of the figure (shares of the leg's length) on the floor, in metres."""

@@ -123,7 +123,7 @@ class Figure:
     hands: Mapping[float, str]
     steps: tuple[Step, ...] = ()
     trunk: Mapping[float, Pose] = field(default_factory=lambda: {0.0: Pose()})
-    through: Mapping[float, str] = field(default_factory=lambda: {})
+    through: Mapping[float, str] = field(default_factory=dict[float, str])
     travel: tuple[float, float, float] = (0.0, 0.0, 0.0)
     bounce: float = 0.02
     circle: float = 0.0

@@ -96,7 +96,7 @@ def _ankle(ball: Positions, yaw: Array, pitch: Array, build: Build) -> tuple[Pos
     return ankle, rot.multiply(rot.yaw(yaw), tilt), raised
 
 
-def highest_pelvis(hips: Positions, ankles: Positions, leg: float, stretch: float = 0.99) -> Array:
+def highest_pelvis(hips: Positions, ankles: Positions, leg: float, stretch: float = 0.994) -> Array:
     """Metres (F,) the hip joint (relative height ``hips`` z) can be raised until the leg is ``stretch`` straight.
 
     Returns the height of the pelvis above the floor at which ``|hip − ankle| = stretch · leg``.
@@ -105,7 +105,7 @@ def highest_pelvis(hips: Positions, ankles: Positions, leg: float, stretch: floa
     return ankles[:, 2] + np.sqrt(np.maximum((stretch * leg) ** 2 - level, 1e-4)) - hips[:, 2]
 
 
-def softest_minimum(heights: Array, softness: float = 0.008) -> Array:
+def softest_minimum(heights: Array, softness: float = 0.005) -> Array:
     """A smooth minimum over the last axis, never above the true one: ``−s log Σ exp(−h/s)``, ``softness`` metres."""
     low = heights.min(axis=-1, keepdims=True)
     return low[..., 0] - softness * np.log(np.exp(-(heights - low) / softness).sum(axis=-1))

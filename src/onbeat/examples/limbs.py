@@ -72,7 +72,7 @@ def arm_rotations(arcs: Array, reach: Array, swivel: Array, bones: tuple[float, 
     bones : metres of upper arm and forearm.
     """
     lift, flexion = bend(*bones, np.clip(reach, 0.3, 0.985) * (bones[0] + bones[1]))
-    axis = np.cross(ARM_REST, arcs[:, :1] * _OUT + arcs[:, 1:] * _UP)
+    axis = arcs[:, 1:] * _OUT - arcs[:, :1] * _UP  # ARM_REST × (outward _OUT + upward _UP)
     carried = rot.multiply(rot.exp(axis), _ARM_REST_ROTATION)
     upper = rot.multiply(rot.multiply(carried, turn_x(-swivel)), turn_z(-lift))
     return upper, turn_z(flexion)

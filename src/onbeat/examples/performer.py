@@ -25,6 +25,8 @@ FADING = 4.5
 """Ornaments shrink as ``exp(−FADING (speed − 1))``: there is no time for them in fast music."""
 SHRINKING = 0.3
 """Moves shrink as ``1 − SHRINKING (speed − 1)``."""
+ARMS_AHEAD = 0.026
+"""Share of the height by which the pelvis is held back, since arms are mostly carried in front."""
 _POSE = {name: index for index, name in enumerate(Pose._fields)}
 
 
@@ -70,8 +72,8 @@ def perform(
     breath = np.sin(2 * np.pi * (0.27 * times + rng.random()))
     name = f"{dancer.name} {task} {speed:g}x"
     motion, contacts = _move(dancer, score, times, ornaments, breath, fps, name)
-    beats = np.arange(int(round(score.duration / period)) + 1) * period
-    beats = beats[beats <= times[-1] + 1e-9]
+    count = int(np.floor(times[-1] / period + 1e-6)) + 1
+    beats = np.arange(count, dtype=np.float64) * period
     return Performance(motion, task, dancer.name, speed, cycles, beats, score.keyposes, contacts)
 
 
@@ -99,7 +101,9 @@ def _move(
     floor = follow(times, score.floor)
     arms = [_arm_path(dancer, keys, times, fps) for keys in score.hands]
     trunk = _trunk_path(dancer, score, times, fps)
-    _groove(trunk, arms, follow(times, score.weight)[:, 0], _dip(times - 0.03, score.period) * floor[:, 0] * dancer.bounce)
+    _groove(
+        trunk, arms, follow(times, score.weight)[:, 0], _dip(times - 0.03, score.period) * floor[:, 0] * dancer.bounce
+    )
     _set_trunk(q, trunk, pelvis[:, 2], ornaments[:, 4:], breath)
     for side, path, details in zip(("Left", "Right"), arms, (ornaments[:, :2], ornaments[:, 2:4]), strict=True):
         _set_arm(q, side, path, details, dancer, breath, fps)
@@ -158,9 +162,7 @@ def _set_trunk(q: Rotations, trunk: Array, yaw: Array, ornaments: Array, breath:
     q[:, NAMES.index("Head")] = _vector(0.6 * down, 0.6 * aside, 0.6 * around)
 
 
-def _set_arm(
-    q: Rotations, side: str, path: Array, ornaments: Array, dancer: Dancer, breath: Array, fps: float
-) -> None:
+def _set_arm(q: Rotations, side: str, path: Array, ornaments: Array, dancer: Dancer, breath: Array, fps: float) -> None:
     """Collar, upper arm, forearm and hand; the hand trails behind the arm and swings past it."""
     build = dancer.build
     upper, forearm = arm_rotations(path[:, :2], path[:, 2], path[:, 3], (build.upper_arm, build.forearm))
@@ -189,6 +191,7 @@ def _root(
     circle = floor[:, 1] * build.leg * dancer.amplitude
     aside = trunk[:, 5] * build.leg - 0.08 * build.height * np.sin(trunk[:, 1]) + circle * np.sin(turn)
     ahead = trunk[:, 6] * build.leg - 0.11 * build.height * np.sin(trunk[:, 0]) + circle * np.cos(turn)
+    ahead -= ARMS_AHEAD * build.height
     sine, cosine = np.sin(pelvis[:, 2]), np.cos(pelvis[:, 2])
     root = np.empty((len(times), 3))
     root[:, 0] = pelvis[:, 0] + cosine * aside - sine * ahead

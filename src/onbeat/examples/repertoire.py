@@ -229,14 +229,14 @@ KICK = Figure(
     hands={0: "front | back", 1: "guard | guard", 2: "back | front", 3: "guard | guard"},
     steps=(
         Step(1, "R", STANCE),
-        Step(2, "L", -0.08, 0.64, "air", z=0.30),
+        Step(2, "L", -0.08, 0.74, "air", z=0.24),
         Step(3, "L", -STANCE),
-        Step(4, "R", 0.08, 0.64, "air", z=0.30),
+        Step(4, "R", 0.08, 0.74, "air", z=0.24),
     ),
     trunk={
-        0: Pose(bow=-0.08, twist=-0.2, look=0.1),
+        0: Pose(bow=-0.08, twist=-0.2, ahead=-0.07, look=0.1),
         1: Pose(bow=0.06, sink=0.015),
-        2: Pose(bow=-0.08, twist=0.2, look=-0.1),
+        2: Pose(bow=-0.08, twist=0.2, ahead=-0.07, look=-0.1),
         3: Pose(bow=0.06, sink=0.015),
     },
     bounce=0.026,
