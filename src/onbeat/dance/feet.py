@@ -19,7 +19,7 @@ from onbeat.dance.sources import Pose, contact_role
 from onbeat.dance.steps import Steps
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
-from onbeat.motion.contacts import SIDES, runs
+from onbeat.motion.contacts import SIDES, runs, twist
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.legs import place_foot
 
@@ -152,12 +152,6 @@ def _meet(soles: Positions, turns: Rotations, frame: int, moves: Ints, windows: 
     tilt = rot.log(rot.multiply(rot.inverse(turns[frame - 1]), turns[frame]))
     soles[near, 2] += rise * share
     turns[near] = rot.multiply(turns[near], rot.exp(tilt * share[:, None]))
-
-
-def twist(a: Rotations, b: Rotations) -> float:
-    """Radians about the vertical by which ``b`` (4,) is turned against ``a`` (4,)."""
-    turn = rot.multiply(b, rot.inverse(a))
-    return float(np.angle(np.exp(2j * np.arctan2(turn[3], turn[0]))))
 
 
 def _eased(offsets: Array, held: Bools, rests: Bools, times: Times) -> Array:

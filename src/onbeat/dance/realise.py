@@ -16,7 +16,7 @@ from onbeat.dance.steps import steps_between
 from onbeat.dance.windows import fitted_windows, link_speeds
 from onbeat.errors import PlanError
 from onbeat.motion.body import Body
-from onbeat.motion.contacts import foot_contacts
+from onbeat.motion.contacts import SIDES, foot_contacts
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.motion import Motion
 
@@ -91,8 +91,10 @@ def realise(
     limits = _peaks(sources, shown_world[1], moves, times) if peaks is None else peaks
     windows = fitted_windows(sources, how, limits)
     pose = _joined(sources, windows, how, shown, times)
-    soles = shown_world[1][:, body.indices(f"left_{contact_role(body)}", f"right_{contact_role(body)}")]
-    steps = steps_between(standing_at(sources, standing, moves, times), soles, moves, windows, times)
+    standing_now = standing_at(sources, standing, moves, times)
+    turned = shown_world[0][:, body.indices("left_ankle", "right_ankle")]
+    soles = shown_world[1][:, body.indices(*(f"{side}_{contact_role(body)}" for side in SIDES))]
+    steps = steps_between(standing_now, soles, turned, moves, windows, times)
     if plant:
         pose = plant_feet(body, pose, shown_world, steps, moves, windows, times)
     roots = pose.roots - _middle(pose.roots)

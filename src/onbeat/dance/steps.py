@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from onbeat._shapes import Array, Bools, Ints, Positions, Times
+from onbeat._shapes import Array, Bools, Ints, Positions, Rotations, Times
 from onbeat.dance.blend import Windows
+from onbeat.motion.contacts import twist
 
-FARTHEST = 0.12
-"""Metres: feet of the two clips of a join that rest farther apart than this do not meet; the foot steps across."""
+FARTHEST, MOST_TURNED = 0.12, 0.6
+"""Metres and radians: a foot that the clips have strayed farther than this from where it rests has to step."""
 PARTED = 0.5
 """Part of a window in whose middle a foot is in the air if it cannot rest through the join."""
 LIFT, HIGHEST = 0.3, 0.05
@@ -31,29 +32,39 @@ class Steps:
     lifts: Array
 
 
-def steps_between(contacts: Bools, soles: Positions, moves: Ints, windows: Windows, times: Times) -> Steps:
+def steps_between(
+    contacts: Bools, soles: Positions, turns: Rotations, moves: Ints, windows: Windows, times: Times
+) -> Steps:
     """The clips' contacts, less the middle of windows through which a foot cannot rest.
 
     It cannot where it rests on one side of the join only (it must have left the floor before, or come to it after, not
-    at a stroke), or where the two clips rest it too far apart; then it is lifted across.
+    at a stroke), or where the clips rest it too far from where it came down; then it is lifted across.
 
     Parameters
     ----------
     contacts : (F, 2) true where the left, right foot rests in the clip each frame shows.
     soles : (F, 2, 3) metres, where those clips have the feet.
+    turns : (F, 2, 4) wxyz, how they have them turned.
     moves : (F,) the move each frame shows.
     windows : of the joins.
     times : (F,) seconds.
     """
     out, lifts = contacts.copy(), np.zeros(contacts.shape)
+    strayed, landed = np.zeros((2, 3)), np.zeros(2, np.int64)  # from where each foot came down: x, y and yaw
     for frame in (np.flatnonzero(np.diff(moves)) + 1).tolist():
         join = int(moves[frame - 1])
         part = (times - windows.centres[join]) / (PARTED * windows.spans[join])  # -0.5 to 0.5 inside
         near = np.abs(part) < 0.5
-        apart = np.linalg.norm((soles[frame] - soles[frame - 1])[:, :2], axis=-1)
-        both = contacts[frame - 1] & contacts[frame]
-        across = both & (apart > FARTHEST)
-        out[np.ix_(near, across | (contacts[frame - 1] != contacts[frame]))] = False
-        rise = (1 - 4 * part[near] ** 2) ** 2
-        lifts[np.ix_(near, across)] = rise[:, None] * np.minimum(LIFT * apart[across], HIGHEST)
+        for foot in np.flatnonzero(contacts[frame - 1] | contacts[frame]).tolist():
+            if not out[landed[foot] : frame, foot].all():
+                strayed[foot] = 0.0
+            gap = soles[frame, foot] - soles[frame - 1, foot]
+            strayed[foot] += (gap[0], gap[1], twist(turns[frame - 1, foot], turns[frame, foot]))
+            landed[foot] = frame
+            apart = float(np.hypot(strayed[foot, 0], strayed[foot, 1]))
+            if not (contacts[frame - 1, foot] and contacts[frame, foot]):
+                out[near, foot] = False
+            elif apart > FARTHEST or abs(strayed[foot, 2]) > MOST_TURNED:
+                out[near, foot] = False
+                lifts[near, foot] = (1 - 4 * part[near] ** 2) ** 2 * min(LIFT * max(apart, FARTHEST), HIGHEST)
     return Steps(out, lifts)

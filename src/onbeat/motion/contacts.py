@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import gaussian_filter1d, label
 
-from onbeat._shapes import Array, Bools, Positions
+from onbeat._shapes import Array, Bools, Positions, Rotations
+from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.motion import Motion
 
@@ -100,6 +101,12 @@ def runs(mask: Bools) -> list[tuple[int, int]]:
     """
     edges = np.flatnonzero(np.diff(np.concatenate(([False], mask, [False])).astype(np.int8)))
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def twist(a: Rotations, b: Rotations) -> float:
+    """Radians about the vertical by which ``b`` (4,) is turned against ``a`` (4,), −π…π."""
+    turn = rot.multiply(b, rot.inverse(a))
+    return float(np.angle(np.exp(2j * np.arctan2(turn[3], turn[0]))))
 
 
 def _settled(loose: Bools, tight: Bools, fps: float) -> Bools:
