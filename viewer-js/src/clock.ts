@@ -21,7 +21,10 @@ export class Clock {
   private shown = 0;
   private shownAt = 0;
 
-  constructor(readonly duration: number) {}
+  constructor(
+    readonly duration: number,
+    private readonly withSound: boolean,
+  ) {}
 
   get hasSound(): boolean {
     return this.buffer !== undefined;
@@ -40,6 +43,7 @@ export class Clock {
   play(): void {
     if (this.playing) return;
     if (this.shown >= this.duration - 0.02) this.shown = 0;
+    if (this.withSound) this.wake();
     this.playing = true;
     this.restart(this.shown);
   }
@@ -67,9 +71,13 @@ export class Clock {
   /** Seconds of the dance at the screen's time `now` in milliseconds. */
   now(now: number): number {
     if (!this.playing) return this.shown;
-    const heard = Math.max(this.origin + (this.leading(now) - this.mark) * this.rate, this.origin);
+    const heard = this.origin + (this.leading(now) - this.mark) * this.rate;
+    if (heard <= this.origin) {
+      this.shownAt = now; // the first sound is still on its way
+      return this.shown;
+    }
     const passed = Math.max(now - this.shownAt, 0) / 1000;
-    const stopped = this.context !== undefined && this.context.state !== "running";
+    const stopped = this.buffer !== undefined && this.context?.state !== "running";
     const guess = this.shown + (stopped ? 0 : passed * this.rate);
     const error = heard - guess;
     const pulled = guess + error * Math.min(1, passed * PULL);
@@ -86,11 +94,16 @@ export class Clock {
     else this.mark = performance.now() / 1000;
   }
 
-  private startSound(buffer: AudioBuffer, at: number): void {
+  /** Browsers let sound begin only while a key or finger is down, so that this cannot wait for the sound's decoding. */
+  private wake(): void {
     const session = (navigator as { audioSession?: { type: string } }).audioSession;
     if (session) session.type = "playback"; // a phone's mute switch is for ringing
     this.context ??= new AudioContext({ latencyHint: "playback" });
     void this.context.resume();
+  }
+
+  private startSound(buffer: AudioBuffer, at: number): void {
+    this.context ??= new AudioContext({ latencyHint: "playback" });
     this.mark = this.context.currentTime + LEAD;
     if (at + this.silent >= buffer.duration) return;
     this.source = this.context.createBufferSource();
@@ -113,7 +126,9 @@ export class Clock {
     const delayed = context.currentTime - (context.outputLatency || 0);
     const stamp = context.getOutputTimestamp?.();
     if (context.state !== "running" || !stamp?.contextTime || !stamp.performanceTime) return delayed;
+    // Just after a pause the stamp may be from before it.
     const output = stamp.contextTime + (now - stamp.performanceTime) / 1000;
-    return Math.abs(output - context.currentTime) < 0.5 ? output : delayed;
+    const behind = context.currentTime - output;
+    return behind > -0.03 && behind < 0.5 ? output : delayed;
   }
 }

@@ -9,6 +9,7 @@ export interface CapsuleData {
   radius_a: number;
   radius_b: number;
   group: string;
+  colour: string;
   start: number;
   end: number;
 }

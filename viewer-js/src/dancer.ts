@@ -5,15 +5,6 @@ import type { CapsuleData, PageData } from "./contract";
 import { readPath } from "./data";
 import { Trunk, type Tube } from "./trunk";
 
-const COLOURS: Record<string, string> = {
-  head: "#e8b796",
-  torso: "#e2583e",
-  arm: "#e2583e",
-  hand: "#e8b796",
-  hips: "#39405c",
-  leg: "#39405c",
-  foot: "#f4f1ec",
-};
 const UP = new THREE.Vector3(0, 1, 0);
 
 interface Limb {
@@ -40,7 +31,7 @@ export class Dancer {
     this.limbs = page.capsules.map((data) => this.limb(data));
     this.spine = page.spine.map(() => new THREE.Vector3());
     if (page.spine.length > 1) {
-      this.trunk = new Trunk(material("torso"));
+      this.trunk = new Trunk(material(page.capsules.find(({ group }) => group === "torso")?.colour));
       this.group.add(this.trunk.mesh);
       for (const { data, mesh } of this.limbs) mesh.visible = data.group !== "torso";
     }
@@ -82,7 +73,7 @@ export class Dancer {
     const tube = { a: new THREE.Vector3(), b: new THREE.Vector3(), radiusA: data.radius_a, radiusB: data.radius_b };
     this.span(data, tube.a, tube.b);
     const length = tube.a.distanceTo(tube.b);
-    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), material(data.group));
+    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), material(data.colour));
     mesh.castShadow = mesh.receiveShadow = true;
     this.group.add(mesh);
     this.ends.push(new THREE.Vector4(), new THREE.Vector4());
@@ -116,9 +107,8 @@ export class Dancer {
   }
 }
 
-function material(group: string): THREE.Material {
-  const part = group.replace(/^(left|right)_/, "");
-  return new THREE.MeshStandardMaterial({ color: COLOURS[part] ?? COLOURS.torso, roughness: 0.7 });
+function material(colour = "#ee5c42"): THREE.Material {
+  return new THREE.MeshStandardMaterial({ color: colour, roughness: 0.7 });
 }
 
 /** A surface of revolution about y: two spheres at 0 and `length` and the cone that touches both. */

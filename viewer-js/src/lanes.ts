@@ -10,8 +10,6 @@ export const FAINT = "#c6cad5";
 export const ACCENT = "#e2583e";
 export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 
-const QUIET = 0.65; // lifts quiet music, so that its notes are seen too
-
 /** A stretch of time laid on pixels. */
 export interface Span {
   from: number; // [s]
@@ -54,7 +52,7 @@ export function drawWaveform(
     let level = 0;
     for (let i = Math.max(low, 0); i < Math.min(high, wave.values.length); i++) level = Math.max(level, wave.values[i]);
     if (low < 0 || low >= wave.values.length) continue;
-    const height = Math.max(level ** QUIET * half, 0.75);
+    const height = Math.max(level * half, 0.75);
     pen.fillRect(xOf(span, bar * seconds), middle - height, step - 1, 2 * height);
   }
 }
@@ -69,19 +67,30 @@ export function drawClips(
     const left = xOf(span, move.at_s);
     const right = xOf(span, end);
     pen.fillStyle = colours.fill(move.clip);
-    pen.beginPath();
-    pen.roundRect(left + 0.75, top, Math.max(right - left - 1.5, 1), height, Math.min(4, (right - left) / 4));
-    pen.fill();
+    rounded(pen, left + 0.75, top, Math.max(right - left - 1.5, 1), height, Math.min(4, (right - left) / 4));
     const [from, to] = [Math.max(left, 0) + 6, Math.min(right, span.width) - 5];
-    if (to - from < 16) return;
-    pen.save();
-    pen.beginPath();
-    pen.rect(from, top, to - from, height);
-    pen.clip();
     pen.fillStyle = colours.ink(move.clip);
-    if (pen.measureText(move.clip).width <= to - from || left < 0) pen.fillText(move.clip, from, top + height / 2 + 0.5);
-    pen.restore();
+    pen.fillText(shortened(pen, move.clip, to - from), from, top + height / 2 + 0.5);
   });
+}
+
+/** As much of a name as has room, with an ellipsis where some is left out; nothing where too little is left. */
+function shortened(pen: Pen, name: string, room: number): string {
+  if (pen.measureText(name).width <= room) return name;
+  let [fits, length] = [0, name.length];
+  while (fits < length) {
+    const half = (fits + length + 1) >> 1;
+    if (pen.measureText(`${name.slice(0, half)}…`).width <= room) fits = half;
+    else length = half - 1;
+  }
+  return fits < 3 ? "" : `${name.slice(0, fits).trimEnd()}…`;
+}
+
+function rounded(pen: Pen, x: number, y: number, width: number, height: number, radius: number): void {
+  if (!pen.roundRect) return pen.fillRect(x, y, width, height); // browsers of before 2023
+  pen.beginPath();
+  pen.roundRect(x, y, width, height, radius);
+  pen.fill();
 }
 
 export function drawStops(pen: Pen, span: Span, page: PageData, middle: number, size: number, now = -1): void {

@@ -10,7 +10,7 @@ import { Timeline } from "./timeline";
 
 function start(): void {
   const page = readPage();
-  const clock = new Clock(page.duration);
+  const clock = new Clock(page.duration, page.audio !== null);
   const colours = new ClipColours(page.moves.map((move) => move.clip));
   const stage = new Stage(element("scene") as HTMLCanvasElement, page);
   let caughtUp = true;

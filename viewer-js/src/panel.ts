@@ -81,7 +81,9 @@ export class Panel {
   }
 
   private fillFigures(): void {
-    for (const [sign, colour, short, words] of LEGEND) {
+    const page = this.page;
+    const there = [page.beats, page.stops, page.joins, page.music_intensity.base64, page.motion_intensity.base64];
+    for (const [sign, colour, short, words] of LEGEND.filter((_, i) => there[i].length > 0)) {
       at("key").append(entry(sign, colour, short));
       at("legend").append(entry(sign, colour, words));
     }

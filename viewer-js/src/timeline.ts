@@ -7,6 +7,13 @@ import * as lanes from "./lanes";
 
 const SECONDS_PER_PIXEL = 1 / 95;
 
+/** The waveform bent so that quiet and loud songs alike show their notes: its median becomes 0.45. */
+function evened(wave: Curve): Curve {
+  const median = Float32Array.from(wave.values).sort()[wave.values.length >> 1];
+  const bend = Math.min(Math.max(Math.log(0.45) / Math.log(median), 0.5), 2) || 1;
+  return { values: wave.values.map((value) => value ** bend), rate: wave.rate };
+}
+
 /** A canvas that is as sharp as its screen. */
 class Strip {
   readonly pen: CanvasRenderingContext2D;
@@ -50,7 +57,8 @@ export class Timeline {
   ) {
     [this.detail, this.overview] = [new Strip(detail), new Strip(overview)];
     this.picture = new Strip(document.createElement("canvas"));
-    this.wave = readCurve(page.waveform);
+    this.wave = evened(readCurve(page.waveform));
+    detail.hidden = !(page.beats.length || page.stops.length || page.moves.length || this.wave.values.length);
     this.music = readCurve(page.music_intensity);
     this.motion = readCurve(page.motion_intensity);
     this.listenOverview(seek);
@@ -143,7 +151,7 @@ export class Timeline {
     const clips = this.clipsHeight();
     const bottom = height - clips - 4;
     const top = this.waveMiddle(height) * 2 + 2;
-    lanes.drawCurve(pen, span, this.music, top, bottom, "#e4e8ef", true);
+    lanes.drawCurve(pen, span, this.music, top, bottom, "#d9dee7", true);
     lanes.drawCurve(pen, span, this.motion, top, bottom, "#2f9c95", false);
     lanes.drawClips(pen, span, this.page, this.colours, height - clips, clips);
   }

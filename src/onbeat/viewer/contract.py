@@ -27,6 +27,7 @@ class CapsuleData(msgspec.Struct, frozen=True):
     radius_a: float
     radius_b: float
     group: str
+    colour: str
     start: float
     end: float
 

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from onbeat._shapes import Array, Float32, Positions
+from onbeat._shapes import Array, Float32
 from onbeat.errors import BodyError, OnbeatError
 from onbeat.files import write_atomically
 from onbeat.motion import Body, Motion
@@ -29,6 +29,7 @@ from onbeat.viewer.contract import (
     pack_curve,
     pack_path,
 )
+from onbeat.viewer.figure import DRESSED, Figure, ground_height
 from onbeat.viewer.shape import Capsule, capsules
 
 MAX_FPS = 60.0
@@ -100,7 +101,6 @@ def page_data(
     spine = _spine(body)
     joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
     positions = motion.positions[::every, joints]
-    shape = [c._replace(joint_a=joints.index(c.joint_a), joint_b=joints.index(c.joint_b)) for c in shape]
     encoded, waveform = _sound(audio)
     return PageData(
         version=VERSION,
@@ -111,11 +111,11 @@ def page_data(
         fps=motion.fps / every,
         frames=len(positions),
         joints=[motion.skeleton.names[joint] for joint in joints],
-        capsules=[_capsule(c) for c in shape],
+        capsules=[_capsule(c, joints) for c in shape],
         path=pack_path(positions),
         spine=[joints.index(joint) for joint in spine],
         facing=_facing(motion, body),
-        floor=_floor(positions, shape),
+        floor=ground_height(Figure.from_capsules(shape), motion),
         audio=encoded,
         waveform=waveform,
         beats=_rounded(dance.beats if dance.beats is not None else (song.beats.tolist() if song else [])),
@@ -169,9 +169,13 @@ def _spine(body: Body | None) -> list[int]:
     return list(dict.fromkeys(body[role] for role in ("hips", "chest", "neck") if role in body))
 
 
-def _capsule(c: Capsule) -> CapsuleData:
-    radii = round(c.radius_a, 4), round(c.radius_b, 4)
-    return CapsuleData(c.joint_a, c.joint_b, *radii, c.group, round(c.start, 4), round(c.end, 4))
+def _capsule(c: Capsule, joints: Sequence[int]) -> CapsuleData:
+    """A capsule between joints of the page."""
+    colour = "#" + bytes(DRESSED[c.group]).hex()
+    ends = joints.index(c.joint_a), joints.index(c.joint_b)
+    return CapsuleData(
+        *ends, round(c.radius_a, 4), round(c.radius_b, 4), c.group, colour, round(c.start, 4), round(c.end, 4)
+    )
 
 
 def _facing(motion: Motion, body: Body | None) -> float:
@@ -179,19 +183,6 @@ def _facing(motion: Motion, body: Body | None) -> float:
     if body is None:
         return np.pi
     return float(facing(body_frames(motion[:1], body)[0])[0])
-
-
-def _floor(positions: Positions, shape: Sequence[Capsule]) -> float:
-    """Height in metres on which the drawn body stands: rarely is its lowest point below it."""
-    if not shape:
-        return float(np.percentile(positions[..., 2].min(axis=1), 2))
-    heights = positions[..., 2]
-    lowest = np.full(len(heights), np.inf)
-    for c in shape:
-        a, b = heights[:, c.joint_a], heights[:, c.joint_b]
-        lowest = np.minimum(lowest, a + c.start * (b - a) - c.radius_a)
-        lowest = np.minimum(lowest, a + c.end * (b - a) - c.radius_b)
-    return float(np.percentile(lowest, 2))
 
 
 def _curve_times(motion: Motion) -> Array:
