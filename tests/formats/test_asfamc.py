@@ -2,13 +2,13 @@ import warnings
 
 import numpy as np
 import pytest
-from persons import AMC, ASF
 
 from onbeat.errors import FormatError
 from onbeat.formats import read_motion
 from onbeat.formats.asfamc import RateWarning, read_amc, skeleton_file
 from onbeat.motion import Body, Motion
 from onbeat.motion import rotations as rot
+from persons import AMC, ASF
 
 SCALE = 0.0254 / 0.45
 

@@ -2,13 +2,13 @@ import time
 
 import numpy as np
 import pytest
-from persons import BVH, person, swinging
 
 from onbeat.errors import FormatError
 from onbeat.formats import Convention, read_motion, write_motion
 from onbeat.formats.bvh import bvh_text, parse_bvh
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
+from persons import BVH, person, swinging
 
 
 def parsed(text: str, **more) -> Motion:

@@ -1,7 +1,6 @@
 import numpy as np
 import pygltflib as gltf
 import pytest
-from persons import person, swinging
 
 from onbeat.errors import FormatError
 from onbeat.formats import Convention, write_motion
@@ -9,6 +8,7 @@ from onbeat.formats.body_mesh import body_mesh
 from onbeat.formats.glb import glb_bytes
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
+from persons import person, swinging
 
 _KINDS = {gltf.FLOAT: np.float32, gltf.UNSIGNED_SHORT: np.uint16, gltf.UNSIGNED_INT: np.uint32}
 _WIDTH = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from persons import person, swinging
 
 from onbeat.errors import FormatError
 from onbeat.formats import Convention, read_motion, write_motion
 from onbeat.motion import Motion
+from persons import person, swinging
 
 
 @pytest.mark.parametrize("moving", [False, True])

@@ -1,8 +1,8 @@
 import pytest
-from persons import AMC, ASF, BVH, person, swinging
 
 from onbeat.errors import FormatError, OnbeatError
 from onbeat.formats import Convention, motion_files, read_motion, write_motion
+from persons import AMC, ASF, BVH, person, swinging
 
 
 def test_readable_files_are_found_sorted_and_deep(tmp_path):

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from persons import AMC, ASF, BVH
 
 from onbeat.errors import FormatError
 from onbeat.formats.asfamc import read_amc
 from onbeat.formats.bvh import parse_bvh, read_bvh
 from onbeat.formats.npz import read_npz
+from persons import AMC, ASF, BVH
 
 WORDS = [
     "{",
