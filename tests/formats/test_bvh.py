@@ -159,7 +159,7 @@ def test_a_helper_root_is_folded_into_the_travelling_hips():
     frames = [f"100 0 0 90 0 0 {line}" for line in lines[at + 3 :]]  # 1 m along x and turned about the vertical
     folded = parsed("\n".join([*top, *hierarchy, "}", *lines[at : at + 3], *frames]))
     assert folded.skeleton == body.skeleton
-    turned = rot.rotate(rot.yaw(np.pi / 2), body.positions) + [1.0, 0, 0]
+    turned = rot.rotate(rot.yaw(np.pi / 2), body.positions) + np.array([1.0, 0, 0])
     np.testing.assert_allclose(folded.positions, turned, atol=1e-5)
 
 

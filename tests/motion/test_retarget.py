@@ -112,8 +112,8 @@ def test_end_sites_never_turn_and_bones_keep_their_length():
 def test_grounded_moves_only_floors_that_are_off():
     motion = grounded(swinging(person()), near=0.0)
     assert floor_height(motion) == pytest.approx(0, abs=1e-12)
-    near = motion.replace(root_positions=motion.root_positions + [0, 0, 0.02])
-    far = motion.replace(root_positions=motion.root_positions + [0, 0, 0.4])
+    near = motion.replace(root_positions=motion.root_positions + np.array([0, 0, 0.02]))
+    far = motion.replace(root_positions=motion.root_positions + np.array([0, 0, 0.4]))
     assert grounded(near) is near
     np.testing.assert_allclose(grounded(far).positions, motion.positions, atol=1e-12)
 
