@@ -95,10 +95,6 @@ SCHEMES = {
 }
 SIDE = ("collar", "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "toe")
 ASKED = ("hips", "chest", *(f"left_{role}" for role in SIDE))
-    "hips",
-    "chest",
-    *(f"left_{r}" for r in ("collar", "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "toe")),
-)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
