@@ -126,6 +126,22 @@ def test_hands_stay_out_of_trunk_and_head(some: list[Performance]) -> None:
                 assert distance(point, positions[:, body["head"]], crown) > 0.11 * size
 
 
+def test_legs_pass_each_other(everyone: tuple[Performance, ...]) -> None:
+    for p in everyone[::11]:
+        skeleton, positions = p.motion.skeleton, p.motion.positions
+        shares = np.linspace(0, 1, 7)[:, None]
+        left, right = (
+            np.concatenate([
+                positions[:, None, skeleton.index(side + a)] * (1 - shares)
+                + positions[:, None, skeleton.index(side + b)] * shares
+                for a, b in (("Leg", "Foot"), ("Foot", "ToeEnd"))
+            ], axis=1)
+            for side in ("Left", "Right")
+        )  # fmt: skip
+        apart = np.linalg.norm(left[:, :, None] - right[:, None], axis=-1).min()
+        assert apart > 0.045, p.motion.name
+
+
 def distance(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> float:
     """The least distance of points (F, 3) from bones a–b (F, 3)."""
     along = np.clip(np.sum((points - a) * (b - a), axis=1) / np.sum((b - a) ** 2, axis=1), 0, 1)

@@ -60,6 +60,7 @@ class _Foot:
 class _Stage:
     """Where the dancer is while the figures are read."""
 
+    leg: float
     unit: float
     origin: Array = field(default_factory=lambda: np.zeros(2))
     yaw: float = 0.0
@@ -71,6 +72,11 @@ class _Stage:
         """A point of the figure (shares of the leg's length) on the floor, in metres."""
         sine, cosine = np.sin(self.yaw), np.cos(self.yaw)
         return self.origin + self.unit * np.array([cosine * x - sine * y, sine * x + cosine * y])
+
+    def foothold(self, side: float, x: float, y: float, turn: float) -> Array:
+        """Where a foot stands: steps are as long as the dancer's stride, but the feet never closer than at rest."""
+        apart = side * STANCE * (self.leg / self.unit - 1.0)
+        return self.world(x + apart * np.cos(turn), y + apart * np.sin(turn))
 
     def stand(self, beat: float, weight: float) -> None:
         """The pelvis between the feet, over the right foot by ``weight``, on a beat."""
@@ -104,10 +110,10 @@ def write_score(figures: Sequence[Figure], dancer: Dancer, period: float, rng: n
 
 
 def _begin(dancer: Dancer) -> _Stage:
-    stage = _Stage(unit=dancer.build.leg * dancer.stride)
+    stage = _Stage(leg=dancer.build.leg, unit=dancer.build.leg * dancer.stride)
     for foot, side in (("L", -1.0), ("R", 1.0)):
-        x, y = stage.world(side * STANCE, 0.0)
-        stage.feet[foot] = _Foot([(-9.0, -8.0)], [(float(x), float(y), 0.0, -side * TOE_OUT, 0.0, 0.0, True)])
+        x, y = stage.foothold(side, side * STANCE, 0.0, 0.0)
+        stage.feet[foot] = _Foot([(-9.0, -8.0)], [(float(x), float(y), 0.0, -side * TOE_OUT, 0.0, 0.0, 0.0, 0.0, True)])
     stage.stand(-LEAD - 1.0, 0.5)
     return stage
 
@@ -135,7 +141,7 @@ def _walk(stage: _Stage, figure: Figure, start: float, dancer: Dancer) -> None:
 
 def _step(stage: _Stage, step: Step, start: float, dancer: Dancer) -> None:
     side = -1.0 if step.foot == "L" else 1.0
-    x, y = stage.world(step.x, step.y)
+    x, y = stage.foothold(side, step.x, step.y, np.radians(step.turn))
     foot = stage.feet[step.foot]
     pitch = {"heel": 0.42, "air": -0.35}.get(step.kind, 0.0)
     height = stage.unit * step.z if step.kind == "air" else 0.0
@@ -145,15 +151,18 @@ def _step(stage: _Stage, step: Step, start: float, dancer: Dancer) -> None:
     far = float(np.hypot(x - foot.rows[-1][0], y - foot.rows[-1][1]))
     clearance = (0.030 + 0.06 * min(far, 0.6)) * dancer.build.height / 1.7 * (0.6 + 0.4 * dancer.bounce)
     clearance += 0.0 if step.kind == "air" else stage.unit * step.z
+    detour = stage.world(0.0, step.around) - stage.origin
     foot.swings.append((start + step.beat - LIFT_OFF, start + step.beat - LANDED))
     yaw = stage.yaw + np.radians(step.turn) - side * TOE_OUT
-    foot.rows.append((float(x), float(y), height, yaw, pitch, clearance, step.kind != "air"))
+    foot.rows.append((float(x), float(y), height, yaw, pitch, clearance, *detour, step.kind != "air"))
 
 
 def _plan(foot: _Foot, period: float) -> FootPlan:
     swings = (np.array(foot.swings) + LEAD) * period
     rows = np.array(foot.rows)
-    return FootPlan(swings[:, 0], swings[:, 1], rows[:, :3], rows[:, 3], rows[:, 4], rows[:, 5], rows[:, 6] > 0)
+    return FootPlan(
+        swings[:, 0], swings[:, 1], rows[:, :3], rows[:, 3], rows[:, 4], rows[:, 5], rows[:, 6:8], rows[:, 8] > 0
+    )
 
 
 def _keypose_beats(figures: Sequence[Figure], starts: Array) -> Array:

@@ -41,17 +41,18 @@ PLACES: Mapping[str, Place] = {
     "belly": Place(-0.06, 0.50, -0.48, swivel=0.5),
     "chest": Place(-0.08, 0.50, -0.20, swivel=0.7),
     "guard": Place(0.00, 0.42, 0.02, swivel=0.1),
-    "front": Place(0.02, 0.90, -0.06),
+    "front": Place(0.02, 0.93, -0.06),
+    "punch": Place(-0.06, 0.92, 0.24, swivel=0.2),
     "open": Place(0.55, 0.70, -0.20, roll=-0.6),
     "across": Place(-0.34, 0.66, -0.22, swivel=0.4),
     "across high": Place(-0.30, 0.62, 0.42, swivel=0.3),
-    "side": Place(0.93, 0.16, -0.04),
+    "side": Place(0.95, 0.16, -0.04),
     "side up": Place(0.80, 0.18, 0.34),
     "side low": Place(0.82, 0.18, -0.30),
     "brow": Place(0.02, 0.46, 0.40, swivel=0.7, flex=0.3),
-    "high": Place(0.48, 0.24, 0.78),
-    "high front": Place(0.06, 0.68, 0.60),
-    "up": Place(0.14, 0.16, 0.92),
+    "high": Place(0.50, 0.22, 0.80),
+    "high front": Place(0.06, 0.70, 0.65),
+    "up": Place(0.14, 0.16, 0.945),
     "clap": Place(-0.24, 0.62, -0.12, swivel=0.35, flex=-0.45),
     "clap low": Place(-0.24, 0.52, -0.52, swivel=0.35, flex=-0.45),
     "clap high": Place(-0.22, 0.48, 0.52, swivel=0.35, flex=-0.45),
@@ -90,6 +91,7 @@ class Step(NamedTuple):
         takes the weight where the foot is.
     turn : yaw of the foot in degrees, to the left.
     z : how high the foot hangs ("air") or passes ("step"), a share of the leg's length.
+    around : how far the foot goes to the front of the straight way to pass the other, a share of the leg's length.
     """
 
     beat: float
@@ -99,6 +101,7 @@ class Step(NamedTuple):
     kind: str = "step"
     turn: float = 0.0
     z: float = 0.0
+    around: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ class FootPlan:
     places : (E, 3) metres, the ball of the foot after each swing, z above the floor.
     yaws, pitches : (E,) radians after each swing, pitch with the toes up.
     clearance : (E,) metres by which the foot is raised in mid-swing.
+    detours : (E, 2) metres by which the foot goes aside of the straight way in mid-swing.
     stands : (E,) true where the foot stands on the floor after the swing, if only on its heel.
     """
 
@@ -39,6 +40,7 @@ class FootPlan:
     yaws: Array
     pitches: Array
     clearance: Array
+    detours: Array
     stands: Bools
 
 
@@ -62,6 +64,7 @@ def foot_path(plan: FootPlan, times: Times, build: Build) -> FootPath:
     arc = bump(np.clip((share - 0.10) / 0.90, 0.0, 1.0))
     ball = plan.places[before] + (plan.places[index] - plan.places[before]) * swing[:, None]
     ball[:, 2] += plan.clearance[index] * arc
+    ball[:, :2] += plan.detours[index] * arc[:, None]
     yaw = plan.yaws[before] + (plan.yaws[index] - plan.yaws[before]) * swing
     pitch = plan.pitches[before] + (plan.pitches[index] - plan.pitches[before]) * swing
     flat = plan.stands[before] & (plan.pitches[before] == 0.0)

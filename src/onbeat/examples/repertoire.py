@@ -39,7 +39,7 @@ OFFERING = Figure(
 BOW = Figure(
     name="bow",
     beats=8,
-    hands={0: "loose | loose", 2: "side low | side low", 4: "back | belly", 6: "hip side | open"},
+    hands={0: "loose | loose", 2: "side low | side low", 4: "hip side | belly", 6: "open | open"},
     steps=(Step(2, "R", STANCE, -0.16), Step(8, "R", STANCE, 0.0, "close")),
     trunk={
         0: Pose(),
@@ -63,17 +63,19 @@ TURN = Figure(
     hands={0: "low side | low side", 2: "side | side", 4: "up | up", 6: "side | side"},
     steps=tuple(
         Step(
-            k,
-            "LR"[(k - 1) % 2],
-            *(float(v) for v in (-1.0 if k % 2 else 1.0) * STANCE * np.array([np.cos(a), np.sin(a)])),
-            kind="close" if k == 8 else "step",
-            turn=float(np.degrees(a)),
+            2 * pair + (1 if foot == "L" else 2),
+            foot,
+            1.15 * side * STANCE * float(np.cos(angle)),
+            1.15 * side * STANCE * float(np.sin(angle)),
+            kind="close" if pair == 3 and foot == "R" else "step",
+            turn=float(np.degrees(angle)),
         )
-        for k in range(1, 9)
-        for a in [2 * np.pi * min(k, 7) / 7]
+        for pair in range(4)
+        for foot, side in (("L", -1.0), ("R", 1.0))
+        for angle in [np.pi / 4 * (pair + 1)]
     ),
     trunk={0: Pose(), 2: Pose(twist=0.15, look=0.3), 4: Pose(bow=-0.04, nod=-0.08, twist=0.1, look=0.2), 6: Pose()},
-    travel=(0.0, 0.0, 360.0),
+    travel=(0.0, 0.0, 180.0),
     bounce=0.012,
 )
 ARM_WAVES = Figure(
@@ -165,12 +167,12 @@ GRAPEVINE = Figure(
     },
     steps=(
         Step(1, "R", 0.46),
-        Step(2, "L", 0.56, -0.24),
-        Step(3, "R", 0.98),
+        Step(2, "L", 0.62, -0.33, around=-0.20),
+        Step(3, "R", 0.98, around=0.08),
         Step(4, "L", 0.74, kind="tap"),
         Step(5, "L", 0.42),
-        Step(6, "R", 0.30, -0.24),
-        Step(7, "L", -STANCE),
+        Step(6, "R", 0.24, -0.33, around=-0.20),
+        Step(7, "L", -STANCE, around=0.08),
         Step(8, "R", STANCE, kind="tap"),
     ),
     trunk={
@@ -201,7 +203,7 @@ CLAPS = Figure(
 PUNCH = Figure(
     name="punch",
     beats=4,
-    hands={0: "guard | guard", 1: "belly | high front", 2: "guard | guard", 3: "high front | belly"},
+    hands={0: "guard | guard", 1: "belly | punch", 2: "guard | guard", 3: "punch | belly"},
     steps=(
         Step(1, "R", 0.22, 0.10),
         Step(2, "L", -0.20, 0.0, "tap"),
