@@ -270,18 +270,10 @@ def _rotations(joints: list[_Joint], values: Array) -> Rotations:
     for axes, members in groups.items():
         columns = [[column for _, turns, column in joints[n].channels if turns] for n in members]
         if axes:
-            rotations[:, members] = _euler(axes, np.radians(values[:, np.array(columns)]))
+            rotations[:, members] = rot.from_euler(
+                "".join("XYZ"[axis] for axis in axes), np.radians(values[:, np.array(columns)])
+            )
     return rotations
-
-
-def _euler(axes: tuple[int, ...], angles: Array) -> Rotations:
-    """Turns about moving axes, one after the other: (..., n) radians to (..., 4)."""
-    if len(axes) == 3 and axes[0] != axes[1] != axes[2]:
-        return rot.from_euler("".join("XYZ"[axis] for axis in axes), angles)
-    turned = rot.about(np.eye(3)[axes[0]], angles[..., 0])
-    for n, axis in enumerate(axes[1:], 1):
-        turned = rot.multiply(turned, rot.about(np.eye(3)[axis], angles[..., n]))
-    return turned
 
 
 def _path(joint: _Joint, values: Array) -> Array:

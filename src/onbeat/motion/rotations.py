@@ -1,7 +1,7 @@
 """Rotations as unit quaternions wxyz, on arrays of any leading shape.
 
-q and −q are the same rotation; functions that interpolate take the shorter way. Euler angles and matrices go
-through SciPy's ``Rotation``.
+q and −q are the same rotation; functions that interpolate take the shorter way. Matrices, and the way back to Euler
+angles, go through SciPy's ``Rotation``.
 """
 
 from __future__ import annotations
@@ -133,9 +133,21 @@ def to_matrix(q: Rotations) -> Array:
 
 
 def from_euler(order: str, angles: Array) -> Rotations:
-    """Quaternions from Euler angles (..., n) in radians, turned about moving axes in ``order`` ("ZXY")."""
-    flat = Rotation.from_euler(order.upper(), angles.reshape(-1, len(order))).as_quat(scalar_first=True)
-    return flat.reshape(*angles.shape[:-1], 4)
+    """Quaternions from Euler angles (..., n) in radians, turned about moving axes in ``order`` ("ZXY").
+
+    Each turn multiplies from the right: with half the angle's cosine c and sine s about axis a,
+    ``w' = wc − v_a s``, ``v_a' = v_a c + ws``, ``v_b' = v_b c + v_c s``, ``v_c' = v_c c − v_b s``.
+    """
+    half = np.moveaxis(angles, -1, 0) / 2
+    cosine, sine = np.cos(half), np.sin(half)
+    q = np.zeros((4, *angles.shape[:-1]))
+    q[0] = 1
+    for axis, c, s in zip(order.upper(), cosine, sine, strict=True):
+        a = "XYZ".index(axis)
+        a, b, d = 1 + a, 1 + (a + 1) % 3, 1 + (a + 2) % 3
+        q[0], q[a] = q[0] * c - q[a] * s, q[a] * c + q[0] * s
+        q[b], q[d] = q[b] * c + q[d] * s, q[d] * c - q[b] * s
+    return np.ascontiguousarray(np.moveaxis(q, 0, -1))
 
 
 def to_euler(order: str, q: Rotations) -> Array:
