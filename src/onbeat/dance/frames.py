@@ -1,0 +1,75 @@
+"""Library frames at several playback rates, laid in a row for the search."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from onbeat._shapes import Array, Ints
+from onbeat.dance.score import FINE, Frames, z_rank
+from onbeat.moves.graph import GRID
+from onbeat.moves.library import MoveLibrary
+
+RATES = (1.0, 0.87, 1.1)
+"""Playback rates the search may choose from, clip seconds a second."""
+BLOCK = 0.25
+"""Seconds of source that count as shown or not shown."""
+
+
+def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
+    """The library's frames at each of ``rates``."""
+    count = len(library.graph)
+    starts = library.starts
+    base: list[Ints] = []
+    rate_of: list[Array] = []
+    left: list[Ints] = []
+    stops: list[tuple[Ints, Ints]] = []
+    entry = np.zeros((len(rates), count), np.int64)
+    offset = 0
+    for number, rate in enumerate(rates):
+        for clip, start in enumerate(starts[:-1]):
+            length = int(starts[clip + 1] - start)
+            virtual = int((length - 1) / rate) + 1
+            shown = np.minimum(np.round(np.arange(virtual) * rate).astype(np.int64), length - 1)
+            base.append(start + shown)
+            rate_of.append(np.full(virtual, rate))
+            left.append(virtual - 1 - np.arange(virtual))
+            near = np.minimum(np.round(np.arange(length) / rate).astype(np.int64), virtual - 1)
+            entry[number, start : start + length] = offset + near
+            fine = np.round(library.clips[clip].stops / rate * GRID * FINE).astype(np.int64)
+            at = np.minimum((fine + FINE // 2) // FINE, virtual - 1)
+            stops.append((offset + at, fine - at * FINE))
+            offset += virtual
+    worth, shift = np.zeros(offset, np.float32), np.zeros(offset, np.int64)
+    for at, rest in stops:
+        np.add.at(worth, at, np.float32(1))
+        shift[at] = rest
+    all_base = np.concatenate(base)
+    block, blocks = _blocks(library)
+    return Frames(
+        base=all_base,
+        rate=np.concatenate(rate_of),
+        left=np.concatenate(left),
+        entry=entry,
+        stop_worth=worth,
+        stop_shift=np.clip(shift, -FINE, FINE),
+        intensity=z_rank(library.intensity)[all_base].astype(np.float32),
+        block=block[all_base],
+        blocks=blocks,
+    )
+
+
+def _blocks(library: MoveLibrary) -> tuple[Ints, int]:
+    """(N,) the stretch of source each frame shows (a mirrored clip shows its original's), and how many there are."""
+    block = np.zeros(len(library.graph), np.int64)
+    firsts: dict[int, int] = {}
+    used = 0
+    for clip, start in enumerate(library.starts[:-1]):
+        length = int(library.starts[clip + 1] - start)
+        source = library.clips[clip].source
+        if source not in firsts:
+            firsts[source] = used
+            used += int((length - 1) / GRID / BLOCK) + 1
+        block[start : start + length] = firsts[source] + (np.arange(length) / GRID / BLOCK).astype(np.int64)
+    return block, used

@@ -1,0 +1,296 @@
+"""A dance that does not repeat itself: beam search guided by the exact value to go.
+
+Showing a stretch of source again costs ``REPEAT``, which makes the score depend on the past, so that dynamic programming
+no longer finds the best path. A beam of partial dances is kept instead, each with the set of stretches it has shown,
+ranked by what they have earned plus the exact value to go *without* the rule: a bound that is never too low. Of
+partial dances that reach the same frame at the same time only the best is kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numba import njit
+
+from onbeat.dance.optimal import AWAY, HOLD, Path, Problem, ValueToGo, best_entries, rewards, score_path
+
+BEAM = 200
+"""Partial dances kept at each song frame."""
+REPEAT = 3.0
+"""What showing one stretch of source (a quarter of a second) again costs: more than any beat can earn there."""
+
+
+@njit(cache=True, inline="always")
+def _shown(history, row, block):
+    return (history[row, block >> 6] >> np.uint64(block & 63)) & np.uint64(1)
+
+
+@njit(cache=True, inline="always")
+def _show(history, row, block):
+    history[row, block >> 6] |= np.uint64(1) << np.uint64(block & 63)
+
+
+@njit(cache=True)
+def _highest(values, count, keep):
+    """A value that at most about ``keep`` of the first ``count`` values exceed, by a histogram."""
+    if count <= keep:
+        return np.float64(-1e29)
+    low, high = np.float64(1e30), np.float64(-1e30)
+    for i in range(count):
+        if values[i] > -1e29:
+            low, high = min(low, values[i]), max(high, values[i])
+    if high <= low:
+        return low
+    low = max(low, high - 40.0)
+    bins = np.zeros(2048, np.int64)
+    scale = 2047.0 / (high - low)
+    for i in range(count):
+        if values[i] >= low:
+            bins[int((values[i] - low) * scale)] += 1
+    total = 0
+    for b in range(2047, -1, -1):
+        total += bins[b]
+        if total > keep:
+            return low + (b + 1) / scale
+    return low
+
+
+@njit(cache=True, boundscheck=False)
+def _advance(
+    begin,
+    end,
+    frames,
+    hold,
+    buffer,
+    sums,
+    rings,
+    state,
+    nodes,
+    free_node,
+    left,
+    block,
+    repeat,
+    indptr,
+    goal_of,
+    costs,
+    base,
+    ends,
+    entries,
+    stops,
+    worth,
+    shift,
+    motion,
+    beats,
+    music,
+    owner,
+    price,
+):
+    """Move the beam from song frame ``begin`` to ``end``.
+
+    ``state`` is (frame, gain, node, history, count) in ``hold`` + 1 buckets by arrival time; ``nodes`` is (parent,
+    time, entry), one a join. ``sums`` are those of frame ``begin`` − 1, ``rings`` the rewards of the frames since.
+    """
+    where, gain, node, history, count = state
+    parent, at, entered = nodes
+    slots, width = where.shape
+    words = history.shape[2]
+    size, goals = len(base), entries.shape[1]
+    best, which = np.empty(goals, np.float32), np.empty(goals, np.int32)
+    stamp = np.full(size, -1, np.int64)
+    place = np.zeros(size, np.int64)
+    fan = 1
+    for i in range(len(indptr) - 1):
+        fan = max(fan, indptr[i + 1] - indptr[i])
+    candidates = np.empty(width * fan, np.float64)
+    origin, target = np.empty(len(candidates), np.int64), np.empty(len(candidates), np.int64)
+    scratch = np.zeros((1, words), np.uint64)
+    for t in range(begin, end):
+        span = min(hold, frames - t)
+        if t > 0:  # sums along the diagonals, those at t from those at t − 1
+            old = rings[(t - 1) % hold]
+            for f in range(size - 1, 0, -1):
+                sums[f] = sums[f - 1] - old[f - 1]
+            if t - 1 + hold < frames:
+                new = rings[(t - 1) % hold]
+                rewards(t - 1 + hold, new, stops, worth, shift, motion, beats, music, owner, price)
+                for f in range(1, size - hold + 1):
+                    sums[f] += new[f + hold - 1]
+            sums[0] = 0.0  # no diagonal comes from before the first frame: its sum is made anew
+            for k in range(min(span, size)):
+                sums[0] += rings[(t + k) % hold][k]
+        row_now = rings[t % hold]
+        best_entries(sums, buffer[t + span - begin], span, entries, best, which)
+        slot = t % slots
+        # thin the beam to what the width allows, best bounds first
+        n = count[slot]
+        for s in range(n):
+            candidates[s] = gain[slot, s] + buffer[t - begin, where[slot, s]]
+        threshold = _highest(candidates, n, width // 2)
+        kept = 0
+        for s in range(n):
+            if candidates[s] >= threshold:
+                if kept != s:
+                    where[slot, kept], gain[slot, kept], node[slot, kept] = where[slot, s], gain[slot, s], node[slot, s]
+                    history[slot, kept] = history[slot, s]
+                kept += 1
+        n = kept
+        # joins: candidates by their bound, then the price of what they show again
+        many = 0
+        for s in range(n):
+            i = base[where[slot, s]]
+            for e in range(indptr[i], indptr[i + 1]):
+                bound = gain[slot, s] - costs[e] + best[goal_of[e]]
+                if bound > -1e29:
+                    candidates[many], origin[many], target[many] = bound, s, which[goal_of[e]]
+                    many += 1
+        threshold = _highest(candidates, many, width)
+        for c in range(many):
+            if candidates[c] < threshold:
+                continue
+            g = target[c]
+            last = -1
+            for k in range(span):
+                if block[g + k] != last:
+                    last = block[g + k]
+                    if _shown(history[slot], origin[c], last):
+                        candidates[c] -= repeat
+        threshold = max(threshold - 0.5 * repeat, _highest(candidates, many, width // 2))
+        arrival = (t + span) % slots
+        m = count[arrival]
+        for s in range(m):
+            stamp[where[arrival, s]] = t
+            place[where[arrival, s]] = s
+        for c in range(many):
+            if candidates[c] < threshold:
+                continue
+            g = target[c]
+            reach = g + span
+            after = buffer[t + span - begin, reach]
+            earned = candidates[c] - after
+            if stamp[reach] == t:
+                row = place[reach]
+                if gain[arrival, row] >= earned:
+                    continue
+            elif m < width:
+                row = m
+                m += 1
+                stamp[reach], place[reach] = t, row
+            else:
+                continue
+            source = origin[c]
+            for w in range(words):
+                scratch[0, w] = history[slot, source, w]
+            for k in range(span):
+                _show(scratch, 0, block[g + k])
+            for w in range(words):
+                history[arrival, row, w] = scratch[0, w]
+            if free_node >= len(parent):
+                return free_node
+            parent[free_node], at[free_node], entered[free_node] = node[slot, source], t, g
+            where[arrival, row], gain[arrival, row], node[arrival, row] = reach, earned, free_node
+            free_node += 1
+        count[arrival] = m
+        # those who go on in their clip
+        slot_next = (t + 1) % slots
+        m = count[slot_next]
+        for s in range(m):
+            stamp[where[slot_next, s]] = frames + t
+            place[where[slot_next, s]] = s
+        for s in range(n):
+            f = where[slot, s]
+            if left[f] == 0 and t + 1 < frames:
+                continue
+            earned = gain[slot, s] + row_now[f]
+            g = f + 1 if left[f] > 0 else f
+            fresh = block[g] != block[f]
+            if fresh and _shown(history[slot], s, block[g]):
+                earned -= repeat
+            if stamp[g] == frames + t:
+                row = place[g]
+                if gain[slot_next, row] >= earned:
+                    continue
+            elif m < width:
+                row = m
+                m += 1
+                stamp[g], place[g] = frames + t, row
+            else:
+                continue
+            where[slot_next, row], gain[slot_next, row], node[slot_next, row] = g, earned, node[slot, s]
+            for w in range(words):
+                history[slot_next, row, w] = history[slot, s, w]
+            if fresh:
+                _show(history[slot_next], row, block[g])
+        count[slot_next] = m
+        count[slot] = 0
+    return free_node
+
+
+def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: float = REPEAT) -> Path:
+    """The best of ``beam`` partial dances, led by ``value``, that (nearly) never shows a stretch of source twice."""
+    frames = value.total
+    laid = problem.frames
+    slots, width, words = HOLD + 1, 2 * beam, (laid.blocks + 63) // 64
+    state = (
+        np.zeros((slots, width), np.int64),
+        np.zeros((slots, width)),
+        np.zeros((slots, width), np.int64),
+        np.zeros((slots, width, words), np.uint64),
+        np.zeros(slots, np.int64),
+    )
+    most = frames * width + width
+    nodes = (np.zeros(most, np.int32), np.zeros(most, np.int32), np.zeros(most, np.int32))
+    _, _, rows = value.stretch(0)
+    starts = np.argsort(-rows[0], kind="stable")[:width]
+    for s, f in enumerate(starts.tolist()):
+        state[0][0, s], state[2][0, s] = f, s
+        nodes[0][s], nodes[1][s], nodes[2][s] = -1, 0, f
+        state[3][0, s, laid.block[f] >> 6] = np.uint64(1) << np.uint64(laid.block[f] & 63)
+    state[4][0] = len(starts)
+    free, t = len(starts), 0
+    rings = np.zeros((HOLD, len(laid)), np.float32)
+    sums = _first_sums(problem, rings)
+    while t < frames:
+        begin, end, rows = value.stretch(t)
+        free = _advance(
+            begin, end, frames, HOLD, rows, sums, rings, state, nodes, free,
+            laid.left, laid.block, repeat, *problem.arrays,
+        )  # fmt: skip
+        t = end
+    last = frames % slots
+    winner = int(np.argmax(state[1][last, : state[4][last]]))
+    return _walk_back(problem, nodes, int(state[2][last, winner]))
+
+
+def _first_sums(problem: Problem, rings: np.ndarray) -> np.ndarray:
+    """Sums of the first rewards along the diagonals from song frame 0; ``rings`` takes the rewards."""
+    size = len(problem.frames)
+    sums = np.zeros(size)
+    for k in range(min(HOLD, problem.music.frames)):
+        rewards(k, rings[k], *problem.arrays[6:])
+        sums[: size - k] += rings[k][k:]
+    return sums
+
+
+def _walk_back(problem: Problem, nodes: tuple[np.ndarray, np.ndarray, np.ndarray], node: int) -> Path:
+    times: list[int] = []
+    entries: list[int] = []
+    while node >= 0:
+        times.append(int(nodes[1][node]))
+        entries.append(int(nodes[2][node]))
+        node = int(nodes[0][node])
+    times, entries = times[::-1], entries[::-1]
+    return Path(np.array(times), np.array(entries), score_path(problem, times, entries))
+
+
+def owned(problem: Problem, path: Path, price: float) -> Problem:
+    """The same problem, where showing a stretch of source at another time than ``path`` does costs ``price`` a frame.
+
+    Its value to go knows what the path has found out: which stretches are wanted more than once, and when best.
+    """
+    laid = problem.frames
+    when = np.full(laid.blocks, int(AWAY), np.int64)
+    ends = [*path.times[1:].tolist(), problem.music.frames]
+    for t, f, end in zip(path.times.tolist(), path.entries.tolist(), ends, strict=True):
+        when[laid.block[f : f + end - t]] = t + np.arange(end - t)
+    return replace(problem, owner=when[laid.block], price=price)
