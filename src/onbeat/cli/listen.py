@@ -21,9 +21,10 @@ from onbeat.music.audio import AudioWarning, audio_duration, read_audio, read_st
 def _hear(path: Path, method: str, start: float, seconds: float | None) -> Song:
     """Hear with a progress bar on stderr; a damaged file is warned of in one line there."""
     whole = max(audio_duration(path) - start, 0.0)
+    screen = Console(stderr=True)
     columns = (TextColumn("hearing {task.fields[song]}"), BarColumn(), TimeRemainingColumn())
     with (
-        Progress(*columns, console=Console(stderr=True), transient=True) as bar,
+        Progress(*columns, console=screen, transient=True, disable=not screen.is_terminal) as bar,
         warnings.catch_warnings(record=True) as noted,
     ):
         warnings.simplefilter("always", AudioWarning)

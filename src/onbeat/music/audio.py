@@ -22,6 +22,7 @@ from onbeat.music.containers import PACKED, ContainerSource
 
 RATE = 22050  # [Hz], enough for beats and harmony
 BLOCK_SECONDS = 20.0
+PART = 8192  # samples decoded at once: what a break in the data costs
 USABLE_SECONDS = 1.0  # of a damaged file, below which nothing is worth using
 
 
@@ -64,12 +65,27 @@ class _FileSource:
         self.duration = self._file.frames / self.rate
 
     def blocks(self, start: float, frames: int) -> Iterator[Float32]:
-        """Blocks of ``frames`` samples from ``start`` seconds on; raises RuntimeError where the data break."""
+        """Blocks of about ``frames`` samples from ``start`` seconds on; raises RuntimeError where the data break."""
+        held: list[Float32] = []
+        try:
+            for part in self._parts(start):
+                held.append(part)
+                if PART * len(held) >= frames:
+                    yield np.concatenate(held)
+                    held = []
+        except soundfile.LibsndfileError:
+            if held:
+                yield np.concatenate(held)
+            raise
+        if held:
+            yield np.concatenate(held)
+
+    def _parts(self, start: float) -> Iterator[Float32]:
         with self._file as file:
             if start > 0.0:
                 file.seek(min(round(start * self.rate), file.frames))
-            while len(block := file.read(frames, dtype="float32", always_2d=True)):
-                yield block
+            while len(part := file.read(PART, dtype="float32", always_2d=True)):
+                yield np.asarray(part, dtype=np.float32)
 
 
 def _open(path: str | os.PathLike[str]) -> _FileSource | ContainerSource:
@@ -103,9 +119,10 @@ def _native_blocks(path: str | os.PathLike[str], start: float, seconds: float | 
     """Blocks (N, channels) and their rate, as they are in the file."""
     source = _open(path)
     if start < 0.0 or (seconds is not None and seconds <= 0.0):
-        raise AudioError(f"{path}: a stretch from {start} s for {seconds} s; expected start ≥ 0 and seconds > 0")
+        stretch = f"start {start:g} s" if seconds is None else f"start {start:g} s, length {seconds:g} s"
+        raise AudioError(f"{path}: {stretch}: expected a start of 0 or more and a length above 0")
     if start > 0.0 and start >= source.duration:
-        raise AudioError(f"{path}: is {source.duration:.1f} s long; --start {start:g} lies behind its end")
+        raise AudioError(f"{path}: is {source.duration:.1f} s long; a start of {start:g} s lies behind its end")
     expected = max(source.duration - start, 0.0)
     wanted = round((expected if seconds is None else min(seconds, expected)) * source.rate)
     left = wanted if seconds is not None else np.iinfo(np.int64).max
@@ -117,7 +134,8 @@ def _native_blocks(path: str | os.PathLike[str], start: float, seconds: float | 
             if not len(block):
                 break
             if not np.isfinite(block).all():
-                raise AudioError(f"{path}: holds samples that are not numbers near {start + read / source.rate:.1f} s")
+                at = start + (read + int(np.argmin(np.isfinite(block).all(axis=1)))) / source.rate
+                raise AudioError(f"{path}: holds a sample that is not a number at {at:.2f} s; export the song anew")
             yield block, source.rate
             read += len(block)
     except (RuntimeError, OSError) as error:

@@ -16,14 +16,14 @@ from onbeat.music.chords import between_beats
 from onbeat.music.hearing import Progress
 from onbeat.music.intensity import RATE, normalised
 from onbeat.music.song import Song
-from onbeat.music.spectrum import SpectrumStream
+from onbeat.music.spectrum import SpectrumStream, bin_frequencies
 from onbeat.music.tempo import tempo_of
 
 NAME = "shiratori2006"
 WINDOW, HOP = 0.046, 0.01  # [s] of the onset component
 TONE_WINDOW, TONE_HOP = 0.186, 0.05  # [s] of the histogram of frequencies
 SHORTEST_INTERVAL, LONGEST_INTERVAL = 0.3, 1.0  # [s] 200 to 60 BPM; the paper gives no limits
-SEARCH = 0.1  # of the interval, on either side of a predicted beat
+SEARCH = 0.25  # of the interval, on either side of a predicted beat
 CHORD_BAND = (0.0, 500.0)  # [Hz] Eq. 6
 MELODY_BAND = (250.0, 1000.0)  # [Hz] Eq. 7
 METER = 4
@@ -138,7 +138,7 @@ def _spectra(blocks: Iterable[Float32], rate: int, progress: Progress | None) ->
         if progress:
             progress(samples / rate)
     keep(onset_stream.finish(), tone_stream.finish())
-    return np.concatenate(onsets), np.concatenate(tones), np.arange(bins) * (rate / window), samples / rate
+    return np.concatenate(onsets), np.concatenate(tones), bin_frequencies(window, rate)[:bins], samples / rate
 
 
 def listen_shiratori2006(blocks: Iterable[Float32], rate: int, progress: Progress | None = None) -> Song:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy.fft import rfft
 
@@ -50,14 +52,14 @@ class SpectrumStream:
         if not count:
             return np.zeros((0, window // 2 + 1), np.float32)
         frames = np.lib.stride_tricks.sliding_window_view(signal, window)[:: self._hop][:count]
-        spectrum = np.asarray(rfft(frames * self._hann, axis=1))
+        spectrum: Any = rfft(frames * self._hann, axis=1)
         scale = np.float32((2.0 / self._hann.sum()) ** 2)
         return np.asarray((spectrum.real**2 + spectrum.imag**2) * scale, dtype=np.float32)
 
 
 def bin_frequencies(window: int, rate: int) -> Array:
     """Frequencies in Hz of the bins of a window."""
-    return np.arange(window // 2 + 1) * (rate / window)
+    return np.arange(window // 2 + 1, dtype=np.float64) * (rate / window)
 
 
 def log_bands(frequencies: Array, low: float, high: float, per_octave: int) -> Float32:
