@@ -17,6 +17,10 @@ from onbeat.examples.paths import Keys
 
 LEAD = 2.0
 """Beats from the start of a clip, at rest, to its first keypose, and from its last to its end, at rest."""
+LEAVING = 0.65
+"""Beats before a step's beat until which the pelvis stays over the other foot: half-way when the foot lands."""
+ARRIVING = 0.06
+"""Beats after its beat at which the pelvis has come to the new foot."""
 TOE_OUT = np.radians(8.0)
 _HOME = arm_direction(np.array([0.2, 0.6, -0.5]))  # arms grow and shrink about this
 
@@ -96,12 +100,13 @@ def write_score(figures: Sequence[Figure], dancer: Dancer, period: float, rng: n
     beats = starts[-1] + 2 * LEAD
     pelvis = _in_order(np.array(stage.pelvis), period)
     on_beat = np.abs(pelvis.times / period - np.round(pelvis.times / period)) < 1e-6
+    late = Keys(pelvis.times + ARRIVING * period * on_beat, pelvis.values[:, :3])
     return Score(
         period=period,
         duration=float(beats * period),
         hands=_hands(figures, starts, dancer, period, rng),
         trunk=_trunk(figures, starts, period, rng),
-        pelvis=pelvis,
+        pelvis=late,
         weight=Keys(pelvis.times[on_beat], pelvis.values[on_beat, 3:]),
         feet=(_plan(stage.feet["L"], period), _plan(stage.feet["R"], period)),
         floor=_floor(figures, starts, period),
@@ -129,8 +134,7 @@ def _walk(stage: _Stage, figure: Figure, start: float, dancer: Dancer) -> None:
             if step.kind == "shift":
                 stage.weight = 1.0 - support
                 continue
-            if abs(stage.weight - support) > 0.1:
-                stage.stand(start + beat - LIFT_OFF + 0.06, support)
+            stage.stand(start + beat - LEAVING, support)
             _step(stage, step, start, dancer)
             stage.weight = {"step": 1.0 - support, "close": 0.5}.get(step.kind, support)
         stage.stand(start + beat, stage.weight)

@@ -12,9 +12,9 @@ from onbeat.examples.body import Build
 from onbeat.examples.paths import bump, minimum_jerk, soften
 from onbeat.motion import rotations as rot
 
-LIFT_OFF = 0.80
+LIFT_OFF = 0.88
 """Beats before its beat at which a stepping foot begins to leave the floor."""
-LANDED = 0.14
+LANDED = 0.22
 """Beats before its beat at which it stands."""
 EDGE = 0.004
 """Metres over which a foot that would sink is eased onto the floor, so that nothing jerks."""
