@@ -38,6 +38,8 @@ class Problem:
     ----------
     join_costs : (joins,) what each join of the graph costs, in units of the score.
     owner : (M,) song frame at which each virtual frame's stretch of source is meant to be shown, or ``AWAY``.
+    price : what each frame costs that is shown more than a second from its owner's time.
+    hold : m, song frames danced at least after a join.
     """
 
     graph: MotionGraph
@@ -46,6 +48,7 @@ class Problem:
     join_costs: Float32
     owner: Ints | None = None
     price: float = 0.0
+    hold: int = HOLD
 
     @cached_property
     def goals(self) -> tuple[Ints, Ints]:
@@ -56,7 +59,7 @@ class Problem:
     def entries(self) -> Ints:
         """(R, goals) int32 virtual frame of each goal at each rate; −1 where the clip ends too soon after it."""
         entry = self.frames.entry[:, self.goals[0]]
-        return np.where(self.frames.left[entry] > HOLD, entry, -1).astype(np.int32)
+        return np.where(self.frames.left[entry] > self.hold, entry, -1).astype(np.int32)
 
     @cached_property
     def arrays(self) -> tuple[Array | Ints | Float32, ...]:
@@ -173,25 +176,25 @@ class ValueToGo:
     def __init__(self, problem: Problem, rows: int | None = None) -> None:
         self.problem = problem
         self.total = problem.music.frames
-        size = len(problem.frames)
-        self.rows = min(max(rows or ROWS_MEMORY // (4 * size), HOLD + 1), self.total)
+        size, hold = len(problem.frames), problem.hold
+        self.rows = min(max(rows or ROWS_MEMORY // (4 * size), hold + 1), self.total)
         self._kept: dict[int, tuple[Float32, Array]] = {}
-        self._buffer = np.zeros((self.rows + HOLD, size), np.float32)
+        self._buffer = np.zeros((self.rows + hold, size), np.float32)
         self._loaded = -1
-        ahead, sums = np.zeros((HOLD, size), np.float32), np.zeros(size)
+        ahead, sums = np.zeros((hold, size), np.float32), np.zeros(size)
         for begin in reversed(range(0, self.total, self.rows)):
             self._kept[begin] = ahead.copy(), sums.copy()
             self._fill(begin, ahead, sums)
-            ahead = self._buffer[:HOLD].copy()
+            ahead = self._buffer[:hold].copy()
 
     def _fill(self, begin: int, ahead: Float32, sums: Array) -> None:
-        end = min(begin + self.rows, self.total)
-        self._buffer[end - begin : end - begin + HOLD] = ahead
-        _backward(begin, end, self.total, HOLD, self._buffer, sums, *self.problem.arrays)
+        end, hold = min(begin + self.rows, self.total), self.problem.hold
+        self._buffer[end - begin : end - begin + hold] = ahead
+        _backward(begin, end, self.total, hold, self._buffer, sums, *self.problem.arrays)
         self._loaded = begin
 
     def stretch(self, t: int) -> tuple[int, int, Float32]:
-        """The stretch that holds song frame t: its begin, its end, and rows V(begin …), ``HOLD`` of them past its end."""
+        """The stretch that holds song frame t: its begin, its end, and V from the begin on, ``hold`` rows past its end."""
         begin = (t // self.rows) * self.rows
         if begin != self._loaded:
             ahead, sums = self._kept[begin]
@@ -252,7 +255,7 @@ def best_path(value: ValueToGo) -> Path:
         if float(rows[t - begin, f]) <= on + 1e-4:
             t, f = t + 1, f + 1
             continue
-        span = min(HOLD, total - t)
+        span = min(problem.hold, total - t)
         goals, costs = joins_from(problem, f)
         after = rows[t + span - begin, goals + span] if t + span < total else 0.0
         f = int(goals[np.argmax(reward_along(problem, t, goals, span) + after - costs)])

@@ -1,7 +1,7 @@
 """A dance that does not repeat itself: beam search guided by the exact value to go.
 
-Showing a stretch of source again costs ``REPEAT``, which makes the score depend on the past, so that dynamic programming
-no longer finds the best path. A beam of partial dances is kept instead, each with the set of stretches it has shown,
+Showing a stretch of source again costs ``REPEAT``, which makes the score depend on the past, so that dynamic
+programming no longer finds the best path. A beam of partial dances is kept instead, each with the set of stretches it has shown,
 ranked by what they have earned plus the exact value to go *without* the rule: a bound that is never too low. Of
 partial dances that reach the same frame at the same time only the best is kept.
 """
@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numba import njit
 
-from onbeat.dance.optimal import AWAY, HOLD, Path, Problem, ValueToGo, best_entries, rewards, score_path
+from onbeat.dance.optimal import AWAY, Path, Problem, ValueToGo, best_entries, rewards, score_path
 
 BEAM = 200
 """Partial dances kept at each song frame."""
@@ -230,7 +230,7 @@ def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: floa
     """The best of ``beam`` partial dances, led by ``value``, that (nearly) never shows a stretch of source twice."""
     frames = value.total
     laid = problem.frames
-    slots, width, words = HOLD + 1, 2 * beam, (laid.blocks + 63) // 64
+    slots, width, words = problem.hold + 1, 2 * beam, (laid.blocks + 63) // 64
     state = (
         np.zeros((slots, width), np.int64),
         np.zeros((slots, width)),
@@ -248,12 +248,12 @@ def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: floa
         state[3][0, s, laid.block[f] >> 6] = np.uint64(1) << np.uint64(laid.block[f] & 63)
     state[4][0] = len(starts)
     free, t = len(starts), 0
-    rings = np.zeros((HOLD, len(laid)), np.float32)
+    rings = np.zeros((problem.hold, len(laid)), np.float32)
     sums = _first_sums(problem, rings)
     while t < frames:
         begin, end, rows = value.stretch(t)
         free = _advance(
-            begin, end, frames, HOLD, rows, sums, rings, state, nodes, free,
+            begin, end, frames, problem.hold, rows, sums, rings, state, nodes, free,
             laid.left, laid.block, repeat, *problem.arrays,
         )  # fmt: skip
         t = end
@@ -266,7 +266,7 @@ def _first_sums(problem: Problem, rings: np.ndarray) -> np.ndarray:
     """Sums of the first rewards along the diagonals from song frame 0; ``rings`` takes the rewards."""
     size = len(problem.frames)
     sums = np.zeros(size)
-    for k in range(min(HOLD, problem.music.frames)):
+    for k in range(min(problem.hold, problem.music.frames)):
         rewards(k, rings[k], *problem.arrays[6:])
         sums[: size - k] += rings[k][k:]
     return sums
