@@ -13,9 +13,9 @@ from onbeat.motion import Body, Skeleton
 SIDES = 10
 _ADULT_LEG = 0.82
 _RADII = {
-    "hips": (0.105, 0.1),
-    "spine": (0.1, 0.105),
-    "chest": (0.11, 0.075),
+    "hips": (0.095, 0.088),
+    "spine": (0.1, 0.11),
+    "chest": (0.115, 0.075),
     "neck": (0.055, 0.05),
     "head": (0.09, 0.085),
     "collar": (0.07, 0.055),
@@ -29,6 +29,16 @@ _RADII = {
     "toe": (0.03, 0.022),
 }
 """Metres at the start and the end of the bones that hang on a joint, for an adult, by the joint's role."""
+
+
+class Bone(NamedTuple):
+    """A capsule: its start and end (3,) and the radii there in metres, and the joint that moves it."""
+
+    start: Positions
+    end: Positions
+    radius_a: float
+    radius_b: float
+    owner: int
 
 
 class Mesh(NamedTuple):
@@ -46,8 +56,9 @@ class Mesh(NamedTuple):
 
 def body_mesh(skeleton: Skeleton) -> Mesh:
     """The mesh of a skeleton in its rest pose with the root at the origin."""
-    parts = [_capsule(*ends) for ends in _bones(skeleton)]
-    owners = [parent for _, _, _, _, parent in _bones(skeleton)]
+    bones = [*_bones(skeleton), *_ribs(skeleton)]
+    parts = [_capsule(bone) for bone in bones]
+    owners = [bone.owner for bone in bones]
     counts = [len(points) for points, _, _ in parts]
     starts = np.cumsum([0, *counts[:-1]])
     return Mesh(
@@ -58,19 +69,42 @@ def body_mesh(skeleton: Skeleton) -> Mesh:
     )
 
 
-def _bones(skeleton: Skeleton) -> list[tuple[Positions, Positions, float, float, int]]:
-    """Start, end, radii and moving joint of each bone that has a length; a ball where there is none."""
+def _bones(skeleton: Skeleton) -> list[Bone]:
+    """Start, end, radii and moving joint of each bone that has a length, twins once; a ball where there is none."""
     rest, radii = skeleton.rest_positions, _radii(skeleton)
-    made: list[tuple[Positions, Positions, float, float, int]] = []
+    made: list[Bone] = []
     for joint in range(1, len(skeleton)):
         parent, length = int(skeleton.parents[joint]), float(skeleton.bone_lengths[joint])
-        if length > 1e-4:
+        twin = any(
+            np.allclose(skeleton.offsets[k], skeleton.offsets[joint]) for k in skeleton.children[parent] if k < joint
+        )
+        if length > 1e-4 and not twin:
             start, end = radii[parent]
             start, end = min(start, 0.6 * length + 0.01), min(end, 0.6 * length + 0.01)
             # The ball at a tip ends there; at a joint it is centred there.
             short = min(end, 0.9 * length) / length if skeleton.end_sites[joint] else 0.0
-            made.append((rest[parent], rest[joint] - short * skeleton.offsets[joint], start, end, parent))
-    return made or [(rest[0], rest[0] + [0, 0, 1e-3], 0.05, 0.05, 0)]
+            made.append(Bone(rest[parent], rest[joint] - short * skeleton.offsets[joint], start, end, parent))
+    return made or [Bone(rest[0], rest[0] + [0, 0, 1e-3], 0.05, 0.05, 0)]
+
+
+def _ribs(skeleton: Skeleton) -> list[Bone]:
+    """From the chest most of the way to each shoulder, so that the trunk is broader than it is deep."""
+    try:
+        body = Body.of(skeleton)
+    except BodyError:
+        return []
+    rest, chest, size = skeleton.rest_positions, body["chest"], _size(body)
+    made: list[Bone] = []
+    for shoulder in body.indices("left_shoulder", "right_shoulder").tolist():
+        end = rest[chest] + 0.7 * (rest[shoulder] - rest[chest])
+        if np.linalg.norm(end - rest[chest]) > 1e-4:
+            made.append(Bone(rest[chest], end, 0.1 * size, 0.085 * size, chest))
+    return made
+
+
+def _size(body: Body) -> float:
+    """How much larger a body is than an adult, by its legs."""
+    return min(max(body.leg_length / _ADULT_LEG, 0.2), 3.0)
 
 
 def _radii(skeleton: Skeleton) -> list[tuple[float, float]]:
@@ -79,7 +113,7 @@ def _radii(skeleton: Skeleton) -> list[tuple[float, float]]:
         body = Body.of(skeleton)
     except BodyError:
         return [(0.03, 0.025)] * len(skeleton)
-    size = min(max(body.leg_length / _ADULT_LEG, 0.2), 3.0)
+    size = _size(body)
     by_joint = {joint: _RADII[role.split("_")[-1]] for role, joint in body.joints.items()}
     radii: list[tuple[float, float]] = []
     for joint in range(len(skeleton)):
@@ -89,11 +123,9 @@ def _radii(skeleton: Skeleton) -> list[tuple[float, float]]:
     return radii
 
 
-def _capsule(
-    start: Positions, end: Positions, radius_a: float, radius_b: float, _owner: int
-) -> tuple[Positions, Positions, Ints]:
+def _capsule(bone: Bone) -> tuple[Positions, Positions, Ints]:
     """Vertices, normals and triangles of a tapering capsule: half a ball, a cone, half a ball."""
-    along = (end - start) / np.linalg.norm(end - start)
+    along = (bone.end - bone.start) / np.linalg.norm(bone.end - bone.start)
     helper = np.eye(3)[int(np.argmin(np.abs(along)))]
     u = np.cross(along, helper)
     u /= np.linalg.norm(u)
@@ -102,8 +134,8 @@ def _capsule(
     ring = np.asarray(np.cos(around)[:, None] * u + np.sin(around)[:, None] * v, np.float64)
     slopes = np.asarray(np.deg2rad(np.array([-90.0, -60, -30, 0, 0, 30, 60, 90])), np.float64)
     normals = np.asarray(np.cos(slopes)[:, None, None] * ring + np.sin(slopes)[:, None, None] * along, np.float64)
-    radius = np.repeat([radius_a, radius_b], 4)[:, None, None]
-    centre = np.repeat(np.stack((start, end)), 4, axis=0)[:, None]
+    radius = np.repeat([bone.radius_a, bone.radius_b], 4)[:, None, None]
+    centre = np.repeat(np.stack((bone.start, bone.end)), 4, axis=0)[:, None]
     vertices = (centre + radius * normals).reshape(-1, 3)
     return vertices, normals.reshape(-1, 3), _tube(len(slopes))
 
