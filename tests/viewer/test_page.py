@@ -15,8 +15,9 @@ import pytest
 from onbeat.errors import OnbeatError
 from onbeat.motion import Motion, Skeleton
 from onbeat.music.song import Song
+from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import VERSION, PageData, unpack_curve, unpack_path
-from onbeat.viewer.page import page_data, render_page, write_page
+from onbeat.viewer.page import render_page, write_page
 
 HOSTILE = '</script><script>alert("1")</script><!-- \u2028 &amp; <img src=x onerror=alert(2)>'
 VIEWER_JS = Path(__file__).resolve().parents[2] / "viewer-js"
@@ -125,7 +126,15 @@ def test_the_same_input_gives_the_same_bytes(swinger: Motion, song: Song) -> Non
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"moves": [{"clip": "a"}]}, {"stops": "many"}, {"beats": [None]}, {"metrics": [1]}, {"title": 3}]
+    "wrong",
+    [
+        {"moves": [{"clip": "a"}]},
+        {"stops": "many"},
+        {"beats": [None]},
+        {"metrics": [1]},
+        {"title": 3},
+        {"stops": [np.inf]},
+    ],
 )
 def test_a_wrong_document_is_refused(swinger: Motion, wrong: dict[str, Any]) -> None:
     with pytest.raises(OnbeatError, match="no dance document"):

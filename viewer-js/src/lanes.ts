@@ -38,6 +38,12 @@ export function drawBeats(pen: Pen, span: Span, page: PageData, top: number, bot
   });
 }
 
+/** Mean of the values from index `low` up to before `high`, as far as there are any. */
+function mean(values: Float32Array, low: number, high: number): number {
+  const part = values.subarray(Math.max(Math.floor(low), 0), Math.floor(high));
+  return part.reduce((sum, value) => sum + value, 0) / Math.max(part.length, 1);
+}
+
 export function drawWaveform(
   pen: Pen, span: Span, wave: Curve, middle: number, half: number, colour: string, step: number, until = Infinity,
 ): void {
@@ -49,10 +55,8 @@ export function drawWaveform(
     if (bar * seconds > until) break;
     const low = Math.floor(bar * seconds * wave.rate);
     const high = Math.max(low + 1, Math.floor((bar + 1) * seconds * wave.rate));
-    let level = 0;
-    for (let i = Math.max(low, 0); i < Math.min(high, wave.values.length); i++) level = Math.max(level, wave.values[i]);
     if (low < 0 || low >= wave.values.length) continue;
-    const height = Math.max(level * half, 0.75);
+    const height = Math.max(mean(wave.values, low, high) * half, 0.75);
     pen.fillRect(xOf(span, bar * seconds), middle - height, step - 1, 2 * height);
   }
 }
@@ -125,8 +129,13 @@ export function drawJoins(pen: Pen, span: Span, page: PageData, top: number, bot
 /** A curve 0…1 over the span between `bottom` and `top`; filled to the bottom where `fill`. */
 export function drawCurve(pen: Pen, span: Span, curve: Curve, top: number, bottom: number, colour: string, fill: boolean): void {
   if (!curve.values.length) return;
+  // A point each 3 px is enough: more would draw a long song as a thicket.
+  const step = Math.max(1, Math.round((3 * curve.rate * (span.to - span.from)) / span.width));
   pen.beginPath();
-  curve.values.forEach((value, i) => pen.lineTo(xOf(span, i / curve.rate), bottom - value * (bottom - top)));
+  for (let i = 0; i < curve.values.length; i += step) {
+    const level = mean(curve.values, i - step / 2, i + step / 2 + 1);
+    pen.lineTo(xOf(span, i / curve.rate), bottom - level * (bottom - top));
+  }
   if (fill) {
     pen.lineTo(xOf(span, (curve.values.length - 1) / curve.rate), bottom);
     pen.lineTo(0, bottom);

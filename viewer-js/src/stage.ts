@@ -25,7 +25,7 @@ export class Stage {
     private readonly canvas: HTMLCanvasElement,
     private readonly page: PageData,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer = rendererOn(canvas);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.dancer = new Dancer(page);
@@ -114,5 +114,13 @@ export class Stage {
     this.drawn = -1;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+  }
+}
+
+function rendererOn(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
+  try {
+    return new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+  } catch {
+    throw new Error("The dancer is drawn with WebGL, which this browser has not or has switched off. Try another browser.");
   }
 }

@@ -4,6 +4,7 @@ import type { ClipColours } from "./colours";
 import type { PageData } from "./contract";
 import { type Curve, readCurve } from "./data";
 import * as lanes from "./lanes";
+import { drag, Strip } from "./strip";
 
 const SECONDS_PER_PIXEL = 1 / 95;
 
@@ -12,31 +13,6 @@ function evened(wave: Curve): Curve {
   const median = Float32Array.from(wave.values).sort()[wave.values.length >> 1];
   const bend = Math.min(Math.max(Math.log(0.45) / Math.log(median), 0.5), 2) || 1;
   return { values: wave.values.map((value) => value ** bend), rate: wave.rate };
-}
-
-/** A canvas that is as sharp as its screen. */
-class Strip {
-  readonly pen: CanvasRenderingContext2D;
-  width = 0;
-  height = 0;
-
-  constructor(readonly canvas: HTMLCanvasElement) {
-    this.pen = canvas.getContext("2d") as CanvasRenderingContext2D;
-  }
-
-  /** Sizes the canvas as it is laid out; true where that changed. */
-  fit(): boolean {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    const scale = Math.min(devicePixelRatio || 1, 3);
-    const changed = this.canvas.width !== Math.round(width * scale) || this.canvas.height !== Math.round(height * scale);
-    if (changed) {
-      this.canvas.width = Math.round(width * scale);
-      this.canvas.height = Math.round(height * scale);
-    }
-    [this.width, this.height] = [width, height];
-    this.pen.setTransform(scale, 0, 0, scale, 0, 0);
-    return changed;
-  }
 }
 
 export class Timeline {
@@ -184,20 +160,4 @@ export class Timeline {
       },
     );
   }
-}
-
-function drag(
-  canvas: HTMLCanvasElement,
-  down: (event: PointerEvent) => void,
-  move: (event: PointerEvent) => void,
-  up?: () => void,
-): void {
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    down(event);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (canvas.hasPointerCapture(event.pointerId)) move(event);
-  });
-  canvas.addEventListener("pointerup", () => up?.());
 }

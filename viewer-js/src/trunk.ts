@@ -6,8 +6,8 @@ const AROUND = 40;
 const ALONG = 20; // rows from the hem to the neck
 const CAP = 8; // rows that close the skin at the neck; one point closes it inside the trousers
 const ROWS = 1 + ALONG + CAP;
-const HEM = 0.035; // [m] the shirt ends so far above the line through both hips
-const SOFT = 0.016; // [m] how softly capsules merge
+const HEM = 0.37; // the shirt ends so far above the line through both hips, in radii of the hips
+const SOFT = 0.17; // how softly capsules merge, in radii of the hips
 const NEAR = 0.0015; // [m]
 const MARGIN = 0.04; // [m] a ray starts so far outside of where it last ended
 
@@ -23,6 +23,7 @@ export class Trunk {
   private readonly points: Float32Array;
   private readonly normals: Float32Array;
   private readonly reach: Float32Array; // [m] where each ray last ended
+  private soft = 1; // [m]
   private readonly gradient = new THREE.Vector3();
   private readonly apart = new THREE.Vector3();
   private readonly along = new THREE.Vector3();
@@ -53,7 +54,8 @@ export class Trunk {
     const up = new THREE.Vector3().subVectors(top, foot).normalize();
     const across = new THREE.Vector3().subVectors(hips.b, hips.a);
     const middle = hips.a.clone().lerp(hips.b, 0.5);
-    const rise = middle.sub(foot).dot(up) + HEM;
+    const rise = middle.sub(foot).dot(up) + HEM * hips.radiusA;
+    this.soft = SOFT * hips.radiusA;
     const spine = [foot.clone().addScaledVector(up, rise), ...joints.slice(1)];
     const side = across.addScaledVector(up, -across.dot(up)).normalize();
     const front = new THREE.Vector3().crossVectors(up, side);
@@ -104,7 +106,7 @@ export class Trunk {
 
   /** Metres from a point to the merged capsules, `-s log Σ exp(-d / s)`; leaves its gradient. */
   private distance(point: THREE.Vector3, tubes: readonly Tube[]): number {
-    const { gradient, apart, along } = this;
+    const { gradient, apart, along, soft } = this;
     let [sum, nearest] = [0, Infinity];
     gradient.set(0, 0, 0);
     for (const { a, b, radiusA, radiusB } of tubes) {
@@ -116,15 +118,15 @@ export class Trunk {
       const gap = length - (radiusA + t * (radiusB - radiusA));
       if (gap < nearest) {
         // Keep the sum in range: it is always relative to the nearest so far.
-        const shrink = nearest === Infinity ? 0 : Math.exp((gap - nearest) / SOFT);
+        const shrink = nearest === Infinity ? 0 : Math.exp((gap - nearest) / soft);
         sum *= shrink;
         gradient.multiplyScalar(shrink);
         nearest = gap;
       }
-      const weight = Math.exp((nearest - gap) / SOFT);
+      const weight = Math.exp((nearest - gap) / soft);
       sum += weight;
       gradient.addScaledVector(apart, weight / Math.max(length, 1e-6));
     }
-    return nearest - SOFT * Math.log(sum);
+    return nearest - soft * Math.log(sum);
   }
 }

@@ -3,51 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
 import msgspec
-import numpy as np
 
-from onbeat._shapes import Array, Float32
-from onbeat.errors import BodyError, OnbeatError
+from onbeat._shapes import Float32
+from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
-from onbeat.motion import Body, Motion
-from onbeat.motion.body import body_frames, facing
-from onbeat.motion.features import hand_features, intensity_component
+from onbeat.motion import Motion
 from onbeat.music.song import Song
-from onbeat.viewer import mp3
-from onbeat.viewer.contract import (
-    VERSION,
-    AudioData,
-    CapsuleData,
-    CurveData,
-    MetricData,
-    MoveData,
-    PageData,
-    pack_curve,
-    pack_path,
-)
-from onbeat.viewer.figure import DRESSED, Figure, ground_height
-from onbeat.viewer.shape import Capsule, capsules
+from onbeat.viewer.content import page_data
 
-MAX_FPS = 60.0
-"""Frames per second above which the page would show no more."""
-CURVE_RATE = 10.0
-"""Values per second of the intensity curves."""
 _SLOT = b"<!--onbeat-data-->"
-
-
-class DanceDocument(msgspec.Struct, frozen=True):
-    """What the page reads of ``dance.json``; a page can also be made without one."""
-
-    method: str = ""
-    title: str = ""
-    beats: list[float] | None = None
-    stops: list[float] = []
-    moves: list[MoveData] = []
-    metrics: dict[str, Any] = {}
 
 
 def write_page(
@@ -87,55 +56,6 @@ def render_page(
     return _shell().replace(_SLOT, b'<script type="application/json" id="data">' + data + b"</script>", 1)
 
 
-def page_data(
-    motion: Motion,
-    song: Song | None = None,
-    document: Mapping[str, Any] | None = None,
-    audio: tuple[Float32, int] | None = None,
-) -> PageData:
-    """What the page shows, as its contract has it; arguments and errors as :func:`render_page`."""
-    dance = _document(document)
-    body = _body(motion)
-    shape = capsules(motion.skeleton, body)
-    every = int(np.ceil(motion.fps / MAX_FPS - 1e-9))
-    spine = _spine(body)
-    joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
-    positions = motion.positions[::every, joints]
-    encoded, waveform = _sound(audio)
-    return PageData(
-        version=VERSION,
-        title=dance.title or (song.title if song else "") or motion.name or "A dance",
-        method=dance.method,
-        duration=motion.duration,
-        tempo=song.tempo if song else 0.0,
-        fps=motion.fps / every,
-        frames=len(positions),
-        joints=[motion.skeleton.names[joint] for joint in joints],
-        capsules=[_capsule(c, joints) for c in shape],
-        path=pack_path(positions),
-        spine=[joints.index(joint) for joint in spine],
-        facing=_facing(motion, body),
-        floor=ground_height(Figure.from_capsules(shape), motion),
-        audio=encoded,
-        waveform=waveform,
-        beats=_rounded(dance.beats if dance.beats is not None else (song.beats.tolist() if song else [])),
-        downbeats=_rounded(song.downbeats.tolist() if song else []),
-        stops=_rounded(dance.stops),
-        moves=dance.moves,
-        joins=_rounded([move.at_s for move in dance.moves[1:]]),
-        music_intensity=_music_intensity(motion, song),
-        motion_intensity=_motion_intensity(motion, body),
-        metrics=_metrics(dance.metrics),
-    )
-
-
-def _document(document: Mapping[str, Any] | None) -> DanceDocument:
-    try:
-        return msgspec.convert(dict(document or {}), DanceDocument)
-    except (msgspec.ValidationError, TypeError, ValueError) as error:
-        raise OnbeatError(f"this is no dance document: {error}; give what `onbeat dance` wrote to dance.json") from None
-
-
 def _shell() -> bytes:
     """The built page without its data."""
     file = resources.files("onbeat.viewer") / "static" / "dance.html"
@@ -146,80 +66,3 @@ def _shell() -> bytes:
     if _SLOT not in shell:
         raise OnbeatError(f"{file} is missing or damaged; install onbeat again, or run `npm run build` in viewer-js")
     return shell
-
-
-def _body(motion: Motion) -> Body | None:
-    try:
-        return Body.of(motion.skeleton)
-    except BodyError:
-        return None
-
-
-def _sound(audio: tuple[Float32, int] | None) -> tuple[AudioData | None, CurveData]:
-    if audio is None:
-        return None, pack_curve(np.zeros(0), mp3.WAVEFORM_RATE)
-    samples, rate = audio
-    return mp3.encode(samples, rate), mp3.waveform(samples, rate)
-
-
-def _spine(body: Body | None) -> list[int]:
-    """The joints along the trunk, from the waist up."""
-    if body is None:
-        return [0]
-    return list(dict.fromkeys(body[role] for role in ("hips", "chest", "neck") if role in body))
-
-
-def _capsule(c: Capsule, joints: Sequence[int]) -> CapsuleData:
-    """A capsule between joints of the page."""
-    colour = "#" + bytes(DRESSED[c.group]).hex()
-    ends = joints.index(c.joint_a), joints.index(c.joint_b)
-    return CapsuleData(
-        *ends, round(c.radius_a, 4), round(c.radius_b, 4), c.group, colour, round(c.start, 4), round(c.end, 4)
-    )
-
-
-def _facing(motion: Motion, body: Body | None) -> float:
-    """Yaw in radians to which the dancer faces at first; the camera stands there."""
-    if body is None:
-        return np.pi
-    return float(facing(body_frames(motion[:1], body)[0])[0])
-
-
-def _curve_times(motion: Motion) -> Array:
-    return np.arange(int(motion.duration * CURVE_RATE) + 1) / CURVE_RATE
-
-
-def _music_intensity(motion: Motion, song: Song | None) -> CurveData:
-    values = song.intensity_at(_curve_times(motion)) if song else np.zeros(0)
-    return pack_curve(_to_unit(values), CURVE_RATE)
-
-
-def _motion_intensity(motion: Motion, body: Body | None) -> CurveData:
-    """Eq. 2 of Shiratori 2006 over the dance, the highest being 1; empty without a body."""
-    values = np.zeros(0)
-    if body is not None:
-        values = intensity_component(hand_features(motion, body), _curve_times(motion))
-    return pack_curve(_to_unit(values), CURVE_RATE)
-
-
-def _to_unit(values: Array) -> Array:
-    return values / max(float(values.max(initial=0.0)), 1e-9)
-
-
-def _rounded(times: Sequence[float]) -> list[float]:
-    """Seconds to 0.1 ms, in order."""
-    return sorted(round(float(time), 4) for time in times)
-
-
-def _metrics(metrics: Mapping[str, Any], prefix: str = "") -> list[MetricData]:
-    """Figures by name, those of parts as ``part · name``; lists are left to ``dance.json``."""
-    made: list[MetricData] = []
-    for name, value in metrics.items():
-        label = f"{prefix}{name}".replace("_", " ")
-        if isinstance(value, Mapping):
-            made += _metrics(value, f"{label} · ")
-        elif isinstance(value, bool | str):
-            made.append(MetricData(label, str(value)))
-        elif isinstance(value, int | float):
-            made.append(MetricData(label, f"{value:.4g}" if np.isfinite(value) else "–"))
-    return made
