@@ -129,10 +129,10 @@ def _anchored(foot: Foot, moves: Ints, windows: Windows, times: Times) -> Foot:
     weights = np.array([len(piece) for piece in pieces]) / len(moves)
     gaps = np.array([twist(turns[j - 1], turns[j]) for j in joins])
     yaws = np.concatenate(([0.0], -np.cumsum(gaps)))
-    yaws -= weights @ yaws
     gaps = (soles[joins - 1] - soles[joins]) * np.array([1.0, 1.0, 0.0])
     shifts = np.concatenate((np.zeros((1, 3)), np.cumsum(gaps, axis=0)))
-    shifts -= weights @ shifts
+    keep = int(np.argmin(np.linalg.norm(shifts[:, None] - shifts, axis=-1) @ weights))
+    yaws, shifts = yaws - yaws[keep], shifts - shifts[keep]
     for piece, yaw, shift in zip(pieces, yaws, shifts, strict=True):
         turns[piece] = rot.multiply(rot.yaw(yaw), turns[piece])
         soles[piece] += shift
