@@ -126,6 +126,31 @@ def test_hands_stay_out_of_trunk_and_head(some: list[Performance]) -> None:
                 assert distance(point, positions[:, body["head"]], crown) > 0.11 * size
 
 
+def test_the_weight_is_over_the_standing_foot(some: list[Performance]) -> None:
+    """While the other foot swings; before it lands the body is on its way to it, so not always nearly so."""
+    away: list[np.ndarray] = []
+    for p in some:
+        skeleton, positions = p.motion.skeleton, p.motion.positions
+        centre = centre_of_mass(p)[:, :2]
+        for side, (stands, other) in zip(("Left", "Right"), (p.contacts.T, p.contacts.T[::-1]), strict=True):
+            foot = positions[:, [skeleton.index(side + n) for n in ("Foot", "ToeBase")], :2].mean(1)
+            away.append(np.linalg.norm(centre - foot, axis=-1)[stands & ~other] / positions[0, :, 2].max() * 1.7)
+    assert np.median(np.concatenate(away)) < 0.09
+    assert np.percentile(np.concatenate(away), 90) < 0.18
+
+
+def centre_of_mass(p: Performance) -> np.ndarray:
+    """(F, 3) from the masses of the body's segments (de Leva 1996), rounded."""
+    masses = {"Spine": 0.14, "Chest": 0.16, "Neck": 0.14, "HeadEnd": 0.07}
+    for side in ("Left", "Right"):
+        masses |= {side + name: mass for name, mass in (("ForeArm", 0.028), ("Hand", 0.016), ("HandEnd", 0.006))}
+        masses |= {side + name: mass for name, mass in (("Leg", 0.142), ("Foot", 0.043), ("ToeBase", 0.014))}
+    joints = [p.motion.skeleton.index(name) for name in masses]
+    middles = (p.motion.positions[:, joints] + p.motion.positions[:, p.motion.skeleton.parents[joints]]) / 2
+    weights = np.array(list(masses.values()))
+    return np.einsum("fjc,j->fc", middles, weights / weights.sum())
+
+
 def test_legs_pass_each_other(everyone: tuple[Performance, ...]) -> None:
     for p in everyone[::11]:
         skeleton, positions = p.motion.skeleton, p.motion.positions

@@ -51,7 +51,7 @@ DANCERS = (
     Dancer("Aiko", Build(1.58, legs=0.98, shoulders=0.94, hips=1.05), softness=0.04, ornaments=1.3, wrist=1.3),
     Dancer(
         "Bruno", Build(1.88, legs=1.0, arms=1.02, shoulders=1.08), amplitude=0.9, lag=0.02, softness=0.045, hold=0.05,
-        overshoot=0.1, bounce=1.4, bow=0.06, crouch=0.03, lift=-0.08, sway=1.1, ornaments=0.5,
+        overshoot=0.1, bounce=1.25, bow=0.06, crouch=0.03, lift=-0.08, sway=1.1, ornaments=0.5,
     ),
     Dancer(
         "Carla", Build(1.67, legs=1.03, shoulders=0.96, hips=1.05), amplitude=1.12, stride=1.08, lag=-0.015,
@@ -63,7 +63,7 @@ DANCERS = (
     ),
     Dancer(
         "Emi", Build(1.50, legs=0.97, arms=0.97, shoulders=0.94, hips=1.02), amplitude=1.15, stride=1.1, lag=-0.01,
-        softness=0.025, hold=0.1, overshoot=0.45, bounce=1.6, lift=0.1, ornaments=1.2,
+        softness=0.025, hold=0.1, overshoot=0.45, bounce=1.35, lift=0.1, ornaments=1.2,
     ),
     Dancer(
         "Farid", Build(1.74, shoulders=1.04), amplitude=0.92, stride=0.95, lag=0.03, softness=0.055, hold=0.0,

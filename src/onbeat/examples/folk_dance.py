@@ -39,5 +39,5 @@ FOLK_DANCE = Figure(
         8: Pose(bow=-0.10, nod=-0.22),
         10: Pose(bow=0.30, sink=0.05, nod=0.16),
     },
-    bounce=0.022,
+    bounce=0.032,
 )

@@ -76,7 +76,7 @@ TURN = Figure(
     ),
     trunk={0: Pose(), 2: Pose(twist=0.15, look=0.3), 4: Pose(bow=-0.04, nod=-0.08, twist=0.1, look=0.2), 6: Pose()},
     travel=(0.0, 0.0, 180.0),
-    bounce=0.012,
+    bounce=0.016,
 )
 ARM_WAVES = Figure(
     name="arm waves",
@@ -89,7 +89,7 @@ ARM_WAVES = Figure(
         Step(4, "L", -0.16, 0.0, "tap"),
     ),
     trunk={0: Pose(lean=-0.10, tip=-0.06), 1: Pose(), 2: Pose(lean=0.10, tip=0.06), 3: Pose()},
-    bounce=0.016,
+    bounce=0.022,
 )
 STEP_TOUCH = Figure(
     name="step touch",
@@ -107,7 +107,7 @@ STEP_TOUCH = Figure(
         2: Pose(hip=-0.05, sink=0.01),
         3: Pose(lean=-0.05, twist=0.18, look=0.2),
     },
-    bounce=0.024,
+    bounce=0.036,
 )
 HEEL_TOE = Figure(
     name="heel toe",
@@ -142,7 +142,7 @@ HEEL_TOE = Figure(
         6: Pose(bow=0.04, twist=-0.12),
         7: Pose(bow=-0.05, lean=-0.06, look=0.25),
     },
-    bounce=0.026,
+    bounce=0.032,
 )
 WALK = Figure(
     name="walk in place",
@@ -150,7 +150,7 @@ WALK = Figure(
     hands={0: "low | back", 1: "back | low"},
     steps=(Step(1, "R", STANCE, z=0.10), Step(2, "L", -STANCE, z=0.10)),
     trunk={0: Pose(twist=-0.14, turn=0.05, lean=-0.02), 1: Pose(twist=0.14, turn=-0.05, lean=0.02)},
-    bounce=0.020,
+    bounce=0.028,
 )
 GRAPEVINE = Figure(
     name="grapevine",
@@ -185,7 +185,7 @@ GRAPEVINE = Figure(
         6: Pose(bow=0.08, twist=0.12, turn=-0.18, look=0.25),
         7: Pose(lean=-0.05, look=0.25),
     },
-    bounce=0.024,
+    bounce=0.034,
 )
 CLAPS = Figure(
     name="claps",
@@ -198,7 +198,7 @@ CLAPS = Figure(
         Step(4, "R", STANCE, 0.0, "tap"),
     ),
     trunk={0: Pose(), 1: Pose(bow=0.08, twist=-0.1), 2: Pose(bow=-0.05), 3: Pose(bow=-0.02, nod=-0.14)},
-    bounce=0.030,
+    bounce=0.042,
 )
 PUNCH = Figure(
     name="punch",
@@ -216,14 +216,14 @@ PUNCH = Figure(
         2: Pose(bow=0.12, twist=-0.2, sink=0.03),
         3: Pose(bow=0.06, twist=-0.42, lean=0.04, sink=0.01),
     },
-    bounce=0.035,
+    bounce=0.045,
 )
 BOUNCE = Figure(
     name="bounce",
     beats=4,
     hands={0: "low | low", 1: "guard | guard", 2: "low | low", 3: "side up | side up"},
     trunk={0: Pose(bow=0.14, sink=0.02), 1: Pose(bow=0.0), 2: Pose(bow=0.14, sink=0.02), 3: Pose(bow=-0.06, nod=-0.08)},
-    bounce=0.075,
+    bounce=0.085,
 )
 KICK = Figure(
     name="kick",
@@ -241,7 +241,7 @@ KICK = Figure(
         2: Pose(bow=-0.08, twist=0.2, ahead=-0.07, look=-0.1),
         3: Pose(bow=0.06, sink=0.015),
     },
-    bounce=0.026,
+    bounce=0.034,
 )
 ARM_CIRCLES = Figure(
     name="arm circles",
@@ -254,7 +254,7 @@ ARM_CIRCLES = Figure(
         Step(4, "R", STANCE, kind="tap"),
     ),
     trunk={0: Pose(bow=0.08, nod=0.06), 1: Pose(), 2: Pose(bow=-0.09, nod=-0.15), 3: Pose(bow=0.0)},
-    bounce=0.022,
+    bounce=0.030,
 )
 STAR = Figure(
     name="star",
@@ -272,7 +272,7 @@ STAR = Figure(
         2: Pose(bow=0.20, sink=0.05, nod=0.1),
         3: Pose(lean=-0.14, twist=0.15, nod=-0.1, look=-0.3),
     },
-    bounce=0.034,
+    bounce=0.045,
 )
 REPERTOIRE = (
     SWAY, OFFERING, BOW, HIP_CIRCLES, TURN, ARM_WAVES, STEP_TOUCH, HEEL_TOE, WALK, GRAPEVINE, CLAPS, PUNCH, BOUNCE,
