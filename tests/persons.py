@@ -6,6 +6,7 @@ import numpy as np
 
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
+from onbeat.motion.kinematics import local_rotations
 
 _CENTRE = (
     ("Hips", "", (0, 0, 0)),
@@ -66,6 +67,24 @@ def swinging(skeleton: Skeleton, frames: int = 60, fps: float = 60.0, seed: int 
     rotations[:, skeleton.end_sites] = rot.IDENTITY
     path = np.stack((0.4 * t, np.sin(t), 0.92 + 0.05 * np.sin(3 * t)), axis=1)
     return Motion(skeleton, rotations, path, fps, "swinging")
+
+
+def along_local_axes(motion: Motion) -> Motion:
+    """The same movement on a skeleton whose bones lie along local X, the right side's along −X."""
+    s = motion.skeleton
+    sign = np.where(np.char.startswith(np.array(s.names), "Right"), -1.0, 1.0)
+    frames = np.tile(rot.IDENTITY, (len(s), 1))
+    for joint in range(1, len(s)):
+        parent, bones = int(s.parents[joint]), s.children[joint]
+        del parent
+        if len(bones) == 1:
+            frames[joint] = rot.between(np.array([sign[joint], 0, 0]), s.offsets[bones[0]])
+    world = rot.multiply(motion.world_rotations, frames)
+    offsets = rot.rotate(rot.inverse(frames[s.parents]), s.offsets)
+    offsets[0] = 0
+    laid = Skeleton(s.names, s.parents, offsets, s.end_sites)
+    rotations = local_rotations(laid, world)
+    return Motion(laid, rotations, motion.root_positions, motion.fps, motion.name)
 
 
 BVH = """HIERARCHY

@@ -5,9 +5,8 @@ from onbeat.errors import BodyError
 from onbeat.formats import read_motion
 from onbeat.motion import Body, Motion, Skeleton
 from onbeat.motion import rotations as rot
-from onbeat.motion.kinematics import local_rotations
 from onbeat.motion.mirror import mirrored, partners, sagittal_normal
-from persons import person, swinging
+from persons import along_local_axes, person, swinging
 
 ACROSS = np.diag([-1.0, 1, 1])
 
@@ -62,24 +61,6 @@ def test_a_slightly_lopsided_body_keeps_its_bones():
     np.testing.assert_allclose(lengths, 0.42 * 1.03)
     reflected = (motion.positions @ ACROSS)[:, partners(Body.of(motion.skeleton))]
     assert np.linalg.norm(image.positions - reflected, axis=-1).max() < 0.06
-
-
-def along_local_axes(motion: Motion) -> Motion:
-    """The same movement on a skeleton whose bones lie along local X, the right side's along −X."""
-    s = motion.skeleton
-    sign = np.where(np.char.startswith(np.array(s.names), "Right"), -1.0, 1.0)
-    frames = np.tile(rot.IDENTITY, (len(s), 1))
-    for joint in range(1, len(s)):
-        parent, bones = int(s.parents[joint]), s.children[joint]
-        del parent
-        if len(bones) == 1:
-            frames[joint] = rot.between(np.array([sign[joint], 0, 0]), s.offsets[bones[0]])
-    world = rot.multiply(motion.world_rotations, frames)
-    offsets = rot.rotate(rot.inverse(frames[s.parents]), s.offsets)
-    offsets[0] = 0
-    laid = Skeleton(s.names, s.parents, offsets, s.end_sites)
-    rotations = local_rotations(laid, world)
-    return Motion(laid, rotations, motion.root_positions, motion.fps, motion.name)
 
 
 def test_bones_along_local_axes_are_mirrored():

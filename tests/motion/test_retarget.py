@@ -1,13 +1,12 @@
 import numpy as np
 import pytest
-from test_mirror import along_local_axes
 
 from onbeat.errors import BodyError
 from onbeat.formats import read_motion
 from onbeat.motion import Body, Motion, Skeleton
 from onbeat.motion import rotations as rot
 from onbeat.motion.retarget import floor_height, grounded, retarget, same_build, stands_in_rest
-from persons import person, swinging
+from persons import along_local_axes, person, swinging
 
 LINKS = [(f"{s}_{a}", f"{s}_{b}") for s in ("left", "right") for a, b in
          (("shoulder", "elbow"), ("elbow", "wrist"), ("hip", "knee"), ("knee", "ankle"))]  # fmt: skip
