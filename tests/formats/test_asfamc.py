@@ -73,6 +73,14 @@ def test_the_rate_is_assumed_with_a_warning(tmp_path):
         assert read_motion(tmp_path / "t_01.amc", fps=60).fps == 60
 
 
+def test_two_subjects_of_cmu_are_slower(tmp_path):
+    (tmp_path / "60.asf").write_text(ASF)
+    (tmp_path / "60_01.amc").write_text(AMC)
+    with pytest.warns(RateWarning, match="60 frames a second are assumed"):
+        assert read_motion(tmp_path / "60_01.amc").fps == 60
+    assert read_motion(tmp_path / "60_01.amc", fps=120).fps == 120
+
+
 def test_the_skeleton_is_found_beside_the_motion(tmp_path):
     for name in ("05.asf", "05_01.asf", "06.ASF"):
         (tmp_path / name).write_text(ASF)

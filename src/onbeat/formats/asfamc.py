@@ -5,7 +5,8 @@ Euler order "XYZ" turns about the fixed axes X, then Y, then Z. A joint carries 
 the bone starts, so ``lradius`` is at the elbow; the end of a leaf is ``<bone>_end``. Bone lengths never change.
 Lengths are ``0.0254 / length`` metres with the skeleton's ``:units`` (0.056444 m for CMU's 0.45). Y is up.
 
-AMC stores no frame rate. 120 is CMU's usual rate and assumed with a warning; subjects 60 and 61 are about 60.
+AMC stores no frame rate. CMU's usual 120 is assumed with a warning, and 60 for their subjects 60 and 61 (files named
+``60_01.amc`` and so on), which move at a human pace only so.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
 ASSUMED_FPS = 120.0
+_SLOWER_SUBJECTS = {"60": 60.0, "61": 60.0}
 
 
 class RateWarning(UserWarning):
@@ -57,7 +59,7 @@ def read_amc(path: str | Path, fps: float | None = None, skeleton: str | Path | 
     Parameters
     ----------
     path : the ``.amc`` file.
-    fps : the rate of its frames; without it 120 is assumed, with a warning.
+    fps : the rate of its frames; without it one is assumed, with a warning.
     skeleton : the ``.asf`` file; without it the one that belongs to ``path`` (see :func:`skeleton_file`).
 
     Raises
@@ -69,12 +71,12 @@ def read_amc(path: str | Path, fps: float | None = None, skeleton: str | Path | 
     acclaim = _read_asf(Path(skeleton) if skeleton else skeleton_file(path))
     columns, radians = _read_columns(path, acclaim)
     if fps is None:
+        fps = _SLOWER_SUBJECTS.get(path.stem.partition("_")[0], ASSUMED_FPS)
         warnings.warn(
-            "AMC files store no frame rate: 120 frames a second are assumed; give the rate if it is another",
+            f"AMC files store no frame rate: {fps:g} frames a second are assumed; give the rate if it is another",
             RateWarning,
             stacklevel=3,
         )
-        fps = ASSUMED_FPS
     return z_up_motion(_motion(acclaim, columns, radians, fps, path), acclaim.metres, "y")
 
 

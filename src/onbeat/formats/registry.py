@@ -50,7 +50,7 @@ def read_motion(path: str | os.PathLike[str], fps: float | None = None) -> Motio
     Parameters
     ----------
     path : a ``.bvh``, ``.amc`` (with its ``.asf`` beside it) or ``.npz`` file.
-    fps : the rate of its frames, where the file stores none (AMC: 120 is assumed) or a wrong one.
+    fps : the rate of its frames, where the file stores none (AMC: 120 is assumed with a warning) or a wrong one.
 
     Raises
     ------
