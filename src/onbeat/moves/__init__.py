@@ -1,1 +1,1 @@
-"""moves."""
+"""The library of moves: clips, their features, and the graph of poses at which one may join another."""

@@ -1,4 +1,4 @@
-"""Hearing a song."""
+"""Hearing a song: its beats, downbeats, chord changes and intensity, from any audio file."""
 
 from onbeat.music.listen import METHODS, listen, listen_samples
 from onbeat.music.song import Song

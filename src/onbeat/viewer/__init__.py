@@ -1,1 +1,1 @@
-"""viewer."""
+"""Showing a dance: one page for the browser, video, pictures."""
