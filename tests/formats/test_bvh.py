@@ -187,6 +187,20 @@ def test_leaves_that_are_joints_come_back_as_leaves():
     assert parsed(bvh_text(swinging(arm), Convention("y", "m"))).skeleton == arm
 
 
+def test_deep_trees_are_written_too():
+    deep = Skeleton([f"j{n}" for n in range(1500)], range(-1, 1499), np.tile([0, 0, 0.001], (1500, 1)))
+    offsets = np.array(deep.offsets)
+    offsets[0] = 0
+    deep = Skeleton(deep.names, deep.parents, offsets)
+    motion = Motion(deep, np.tile(rot.IDENTITY, (1, 1500, 1)), np.zeros((1, 3)), 30)
+    assert parsed(bvh_text(motion, Convention("y", "m"))).skeleton == deep
+
+
+def test_names_that_bvh_cannot_hold_are_refused():
+    with pytest.raises(FormatError, match="BVH cannot hold the joint name"):
+        bvh_text(swinging(Skeleton(["a\nb"], [-1], [[0, 0, 0]])), Convention())
+
+
 def test_files_have_exactly_the_frames_and_end_sites(tmp_path):
     body = swinging(person(), frames=7)
     write_motion(body, tmp_path / "a.bvh")

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from onbeat._shapes import Array, Rotations
+from onbeat._shapes import Array, Bools, Rotations
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
 from onbeat.formats.conventions import Convention, guessed_unit, guessed_up, y_up_rotations, y_up_vectors, z_up_motion
@@ -324,7 +324,7 @@ def bvh_text(motion: Motion, convention: Convention) -> str:
     if motion.translations is not None:
         moving = np.ptp(motion.translations, axis=0).max(-1) > 0
     moving[0] = True
-    lines = ["HIERARCHY", *_hierarchy_lines(skeleton, offsets, moving, 0, 0)]
+    lines = ["HIERARCHY", *_hierarchy_lines(skeleton, offsets, moving)]
     columns: list[Array] = []
     for joint in _file_order(skeleton):
         if moving[joint]:
@@ -357,17 +357,29 @@ def _file_order(skeleton: Skeleton) -> list[int]:
     return order
 
 
-def _hierarchy_lines(skeleton: Skeleton, offsets: Array, moving: np.ndarray, joint: int, depth: int) -> list[str]:
-    pad, inner = "\t" * depth, "\t" * (depth + 1)
-    offset = "OFFSET " + " ".join(f"{value:.6f}" for value in offsets[joint])
+def _hierarchy_lines(skeleton: Skeleton, offsets: Array, moving: Bools) -> list[str]:
+    """The lines from ROOT to its closing brace, depth first."""
+    lines: list[str] = []
+    stack: list[tuple[int, int]] = [(0, 0)]
+    open_depth = 0
+    while stack:
+        joint, depth = stack.pop()
+        lines += ["\t" * level + "}" for level in range(open_depth - 1, depth - 1, -1)]
+        lines += ["\t" * depth + line for line in _joint_lines(skeleton, offsets[joint], bool(moving[joint]), joint)]
+        open_depth = depth + 1
+        stack += [(child, depth + 1) for child in reversed(skeleton.children[joint])]
+    return [*lines, *("\t" * level + "}" for level in range(open_depth - 1, -1, -1))]
+
+
+def _joint_lines(skeleton: Skeleton, offset: Array, moving: bool, joint: int) -> list[str]:
+    """A joint up to its children; a leaf that is a joint gets an End Site without length."""
+    place = "\tOFFSET " + " ".join(f"{value:.6f}" for value in offset)
     if skeleton.end_sites[joint]:
-        return [f"{pad}End Site", pad + "{", inner + offset, pad + "}"]
-    positions = "Xposition Yposition Zposition " if moving[joint] else ""
-    channels = f"CHANNELS {6 if moving[joint] else 3} {positions}Zrotation Xrotation Yrotation"
-    kind = "JOINT" if joint else "ROOT"
-    lines = [f"{pad}{kind} {skeleton.names[joint]}", pad + "{", inner + offset, inner + channels]
-    for child in skeleton.children[joint]:
-        lines += _hierarchy_lines(skeleton, offsets, moving, child, depth + 1)
-    if not skeleton.children[joint]:
-        lines += [f"{inner}End Site", inner + "{", f"{inner}\tOFFSET 0.0 0.0 0.0", inner + "}"]
-    return [*lines, pad + "}"]
+        return ["End Site", "{", place]
+    name = skeleton.names[joint]
+    if re.search(r"[{}\r\n]", name) or not name.strip():
+        raise FormatError(f"BVH cannot hold the joint name {name!r}; rename it without braces and line breaks")
+    positions = "Xposition Yposition Zposition " if moving else ""
+    channels = f"\tCHANNELS {6 if moving else 3} {positions}Zrotation Xrotation Yrotation"
+    leaf = [] if skeleton.children[joint] else ["\tEnd Site", "\t{", "\t\tOFFSET 0.0 0.0 0.0", "\t}"]
+    return [f"{'JOINT' if joint else 'ROOT'} {name}", "{", place, channels, *leaf]
