@@ -15,12 +15,13 @@ def new_harmony(tones: Float32, rate: float) -> Array:
     """How much new harmony under 500 Hz begins at each frame: the quarter second after against the one before, (N,)."""
     standing = prominence(tones)[:, :BASS_TONES]
     reach = max(round(NEARBY * rate), 1)
-    sums = np.concatenate([np.zeros((1, standing.shape[1])), np.cumsum(standing, axis=0, dtype=np.float64)])
-    frame, last = np.arange(len(standing)), len(standing)
+    padded = np.pad(standing, ((reach, reach), (0, 0)))
+    change = np.zeros_like(standing)
     # The frame itself is left out: its window holds sound of both sides.
-    after = sums[np.minimum(frame + reach + 1, last)] - sums[np.minimum(frame + 1, last)]
-    before = sums[frame] - sums[np.maximum(frame - reach, 0)]
-    return np.maximum(after - before, 0.0).sum(axis=1) / reach
+    for step in range(1, reach + 1):
+        change += padded[reach + step : reach + step + len(standing)]
+        change -= padded[reach - step : reach - step + len(standing)]
+    return np.maximum(change, 0.0).sum(axis=1, dtype=np.float64) / reach
 
 
 def between_beats(frames: Array | Float32, rate: float, beats: Times) -> Array:
@@ -33,8 +34,12 @@ def between_beats(frames: Array | Float32, rate: float, beats: Times) -> Array:
         return np.zeros((0, frames.shape[1]))
     last = beats[-1] + (beats[-1] - beats[-2] if len(beats) > 1 else 1.0)
     edges = np.clip(np.round(np.append(beats, last) * rate).astype(np.int64), 0, len(frames))
-    sums = np.concatenate([np.zeros((1, frames.shape[1])), np.cumsum(frames, axis=0, dtype=np.float64)])
-    return (sums[edges[1:]] - sums[edges[:-1]]) / np.maximum(np.diff(edges), 1)[:, None]
+    begins = np.append(np.minimum(edges[:-1], len(frames) - 1), min(edges[-1], len(frames) - 1))
+    sums = np.add.reduceat(frames, begins, axis=0)[:-1].astype(np.float64)
+    if edges[-1] == len(frames):
+        sums[-1] = frames[edges[-2] :].sum(axis=0)
+    counts = np.diff(edges)[:, None]
+    return np.where(counts > 0, sums / np.maximum(counts, 1), 0.0)
 
 
 def prominence(tones: Float32) -> Float32:

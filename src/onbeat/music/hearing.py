@@ -98,6 +98,13 @@ class _Streams:
         self.loudness.append(tone @ self._ear)
 
 
+def _joined(parts: list[np.ndarray]) -> np.ndarray:
+    """The parts as one array; the list is emptied, so that hours are in memory once only."""
+    whole = np.concatenate(parts)
+    parts.clear()
+    return whole
+
+
 def hear(blocks: Iterable[Float32], rate: int, progress: Progress | None = None) -> Hearing:
     """Hear mono blocks at ``rate`` samples per second, in one pass."""
     streams = _Streams(rate)
@@ -109,7 +116,7 @@ def hear(blocks: Iterable[Float32], rate: int, progress: Progress | None = None)
         if progress:
             progress(samples / rate)
     streams.finish()
-    bands = np.concatenate(streams.bands)
+    bands = _joined(streams.bands)
     onset_rate, attack_rate, tone_rate = (rate / hop for hop in streams.hops)
     return Hearing(
         duration=samples / rate,
@@ -119,7 +126,7 @@ def hear(blocks: Iterable[Float32], rate: int, progress: Progress | None = None)
         tone_rate=tone_rate,
         bands=bands,
         band_frequencies=40.0 * 2.0 ** (np.arange(bands.shape[1]) / BANDS_PER_OCTAVE),
-        attacks=np.concatenate(streams.attacks),
-        tones=np.concatenate(streams.tones),
-        loudness=np.concatenate(streams.loudness),
+        attacks=_joined(streams.attacks),
+        tones=_joined(streams.tones),
+        loudness=_joined(streams.loudness),
     )
