@@ -1,0 +1,201 @@
+"""What the next seconds can bring: every path from here to a horizon, by dynamic programming over all frames.
+
+The searches that do not see the whole song (``greedy``, ``shiratori2006``) and the random walk share two things: how
+long the dance can go on from each frame, so that they never run into a dead end, and the worth of each first branch
+with its best completion up to the horizon.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from onbeat._shapes import Array, Ints
+from onbeat.dance.optimal import Problem
+from onbeat.errors import PlanError
+from onbeat.moves.graph import GRID
+
+IMPOSSIBLE = -1e30
+
+
+class Branches(NamedTuple):
+    """First branches from a frame: after ``wait`` frames a join to frame ``entry``; an entry of −1 is going on."""
+
+    wait: Ints
+    entry: Ints
+    value: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Roads:
+    """Frames and joins as the look-ahead walks them: a problem without its music.
+
+    Parameters
+    ----------
+    base : (M,) the node of the motion graph that each frame shows.
+    left : (M,) frames of the same clip and rate that follow.
+    indptr, goal, costs : the joins that leave each node in compressed rows: which goal they lead to, what they cost.
+    entries : (R, goals) the frames at which a goal can be entered, or −1.
+    hold : frames danced at least after a join.
+    frames : frames of the song.
+    """
+
+    base: Ints
+    left: Ints
+    indptr: Ints
+    goal: Ints
+    costs: Array
+    entries: Ints
+    hold: int
+    frames: int
+
+    @classmethod
+    def of(cls, problem: Problem) -> Roads:
+        """All frames and joins of a problem."""
+        graph, laid = problem.graph, problem.frames
+        costs = problem.join_costs.astype(np.float64)
+        entries = problem.entries.astype(np.int64)
+        frames = problem.music.frames
+        return cls(laid.base, laid.left, graph.indptr, problem.goals[1], costs, entries, problem.hold, frames)
+
+    def __len__(self) -> int:
+        return len(self.base)
+
+    @cached_property
+    def survival(self) -> Ints:
+        """(M,) frames that can be danced from each frame on, itself counted; no more than the song has."""
+        found = self.left + 1
+        _survival(self.frames, self.hold, self.indptr, self.goal, self.base, self.left, self.entries, found)
+        if found.max() < self.frames:
+            raise PlanError(
+                f"the longest dance that this library can give lasts {found.max() / GRID:.1f} s and the song "
+                f"{self.frames / GRID:.1f} s: its clips have too few poses in common; add clips or take fewer --seconds"
+            )
+        return found
+
+    def values(self, table: Array, rest: int, first: int = 0) -> Array:
+        """(H + 1, M) best sum of ``table`` (H, M) less costs from each frame on, rows before ``first`` left out.
+
+        ``rest`` is how many frames of the song follow the horizon; frames from which it cannot be danced to its end
+        have the value ``IMPOSSIBLE``.
+        """
+        values = np.full((len(table) + 1, len(self)), IMPOSSIBLE)
+        values[-1] = np.where(self.survival >= rest, 0.0, IMPOSSIBLE)
+        _values(
+            table, values, first, rest, self.hold, self.indptr, self.goal, self.costs, self.base, self.left,
+            self.entries, self.survival,
+        )  # fmt: skip
+        return values
+
+    def branches(self, frame: int, table: Array, values: Array, rest: int) -> Branches:
+        """All first branches from ``frame``, each with its best completion up to the horizon, in order of wait."""
+        found = _branches(
+            frame, table, values, rest, self.hold, self.indptr, self.goal, self.costs, self.base, self.left,
+            self.entries, self.survival,
+        )  # fmt: skip
+        return Branches(*found)
+
+
+@njit(cache=True, boundscheck=False)
+def _survival(frames, hold, indptr, goal, base, left, entries, found):
+    """Raise ``found`` (M,) until it is the longest dance from each frame, or the whole song."""
+    goals, nodes = entries.shape[1], len(indptr) - 1
+    best, leap = np.zeros(goals, np.int64), np.zeros(nodes, np.int64)
+    for f in range(len(found)):
+        found[f] = min(found[f], frames)
+    changed = True
+    while changed:
+        changed = False
+        for i in range(goals):
+            best[i] = 0
+            for r in range(entries.shape[0]):
+                if entries[r, i] >= 0:
+                    best[i] = max(best[i], hold + found[entries[r, i] + hold])
+        for i in range(nodes):
+            leap[i] = 0
+            for e in range(indptr[i], indptr[i + 1]):
+                leap[i] = max(leap[i], best[goal[e]])
+        for f in range(len(found) - 1, -1, -1):
+            longest = max(found[f], leap[base[f]])
+            if left[f] > 0:
+                longest = max(longest, found[f + 1] + 1)
+            longest = min(longest, frames)
+            if longest > found[f]:
+                found[f] = longest
+                changed = True
+
+
+@njit(cache=True, boundscheck=False)
+def _landing(values, k, g, hold, rest, survival):
+    """Value of what follows a join to g at row k: that of its landing, or 0 if it lands well past the horizon."""
+    horizon = len(values) - 1
+    if k + hold <= horizon:
+        return values[k + hold, g + hold]
+    return 0.0 if survival[g + hold] >= rest - (k + hold - horizon) else IMPOSSIBLE
+
+
+@njit(cache=True, boundscheck=False)
+def _values(table, values, first, rest, hold, indptr, goal, costs, base, left, entries, survival):
+    horizon, size = table.shape
+    nodes, goals = len(indptr) - 1, entries.shape[1]
+    best, leap = np.empty(goals), np.empty(nodes)
+    sums = np.zeros(size + 1)
+    for k in range(horizon - 1, first - 1, -1):
+        for f in range(size):  # sums along the diagonals; those that leave their clip are never asked for
+            sums[f] = sums[f + 1] + table[k, f]
+        if k + hold < horizon:
+            for f in range(size - hold):
+                sums[f] -= table[k + hold, f + hold]
+        for i in range(goals):
+            best[i] = IMPOSSIBLE
+            for r in range(entries.shape[0]):
+                g = entries[r, i]
+                if g >= 0:
+                    best[i] = max(best[i], sums[g] + _landing(values, k, g, hold, rest, survival))
+        for i in range(nodes):
+            top = IMPOSSIBLE
+            for e in range(indptr[i], indptr[i + 1]):
+                top = max(top, best[goal[e]] - costs[e])
+            leap[i] = top
+        for f in range(size):
+            on = IMPOSSIBLE
+            if left[f] > 0:
+                on = table[k, f] + values[k + 1, f + 1]
+            elif k + 1 == horizon and rest == 0:
+                on = table[k, f]
+            values[k, f] = max(leap[base[f]], on)
+
+
+@njit(cache=True, boundscheck=False)
+def _branches(frame, table, values, rest, hold, indptr, goal, costs, base, left, entries, survival):
+    horizon, rates = len(table), entries.shape[0]
+    last = min(horizon, left[frame] + 1)
+    count = 1
+    for k in range(last):
+        i = base[frame + k]
+        count += (indptr[i + 1] - indptr[i]) * rates
+    wait, entry, value = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count)
+    count, before = 0, 0.0
+    for k in range(last):
+        i = base[frame + k]
+        for e in range(indptr[i], indptr[i + 1]):
+            for r in range(rates):
+                g = entries[r, goal[e]]
+                if g < 0:
+                    continue
+                worth = before - costs[e] + _landing(values, k, g, hold, rest, survival)
+                for n in range(min(hold, horizon - k)):
+                    worth += table[k + n, g + n]
+                if worth > 0.5 * IMPOSSIBLE:
+                    wait[count], entry[count], value[count] = k, g, worth
+                    count += 1
+        before += table[k, frame + k]
+    whole = left[frame] + 1 >= horizon if rest == 0 else left[frame] >= horizon
+    if whole and (rest == 0 or survival[frame + horizon] >= rest):
+        wait[count], entry[count], value[count] = horizon, -1, before
+        count += 1
+    return wait[:count], entry[:count], value[:count]
