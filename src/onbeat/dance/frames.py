@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -23,6 +24,7 @@ def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
     starts = library.starts
     base: list[Ints] = []
     rate_of: list[Array] = []
+    seconds: list[Array] = []
     left: list[Ints] = []
     stops: list[tuple[Ints, Ints]] = []
     entry = np.zeros((len(rates), count), np.int64)
@@ -34,6 +36,7 @@ def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
             shown = np.minimum(np.round(np.arange(virtual) * rate).astype(np.int64), length - 1)
             base.append(start + shown)
             rate_of.append(np.full(virtual, rate))
+            seconds.append(np.arange(virtual) * rate / GRID)
             left.append(virtual - 1 - np.arange(virtual))
             near = np.minimum(np.round(np.arange(length) / rate).astype(np.int64), virtual - 1)
             entry[number, start : start + length] = offset + near
@@ -50,6 +53,7 @@ def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
     return Frames(
         base=all_base,
         rate=np.concatenate(rate_of),
+        second=np.concatenate(seconds),
         left=np.concatenate(left),
         entry=entry,
         stop_worth=worth,
@@ -61,15 +65,11 @@ def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
 
 
 def _blocks(library: MoveLibrary) -> tuple[Ints, int]:
-    """(N,) the stretch of source each frame shows (a mirrored clip shows its original's), and how many there are."""
+    """(N,) the stretch of clip each frame shows, and how many there are; a mirror image is another stretch."""
     block = np.zeros(len(library.graph), np.int64)
-    firsts: dict[int, int] = {}
     used = 0
-    for clip, start in enumerate(library.starts[:-1]):
-        length = int(library.starts[clip + 1] - start)
-        source = library.clips[clip].source
-        if source not in firsts:
-            firsts[source] = used
-            used += int((length - 1) / GRID / BLOCK) + 1
-        block[start : start + length] = firsts[source] + (np.arange(length) / GRID / BLOCK).astype(np.int64)
+    for start, end in itertools.pairwise(library.starts.tolist()):
+        within = (np.arange(end - start) / GRID / BLOCK).astype(np.int64)
+        block[start:end] = used + within
+        used += int(within[-1]) + 1
     return block, used

@@ -240,12 +240,18 @@ def joins_from(problem: Problem, f: int) -> tuple[Ints, Array]:
     return entries[usable].astype(np.int64), costs[usable].astype(np.float64)
 
 
-def best_path(value: ValueToGo) -> Path:
-    """The optimum itself: the path of highest score, without any rule of variety."""
+def best_path(value: ValueToGo, start: int = -1) -> Path:
+    """The optimum itself: the path of highest score, without any rule of variety.
+
+    With ``start``, a virtual frame just joined, the best that goes on from it.
+    """
     problem, total = value.problem, value.total
     _, _, rows = value.stretch(0)
-    f, t = int(np.argmax(rows[0])), 0
+    f, t = (int(np.argmax(rows[0])), 0) if start < 0 else (start, 0)
     times, entries = [0], [f]
+    if start >= 0:
+        t = min(problem.hold, total)
+        f = start + t
     while t < total:
         begin, _, rows = value.stretch(t)
         on = float(NEVER)

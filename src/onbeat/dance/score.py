@@ -46,6 +46,11 @@ class Music:
 
     PAD = 4
 
+    def part(self, begin: int, end: int) -> Music:
+        """The song frames from ``begin`` up to ``end``."""
+        worth = self.beat_worth[begin * FINE : (end + 2 * self.PAD) * FINE]
+        return Music(worth, self.intensity[begin:end], end - begin)
+
 
 def score_music(song: Song, *, rhythm_only: bool = False, beat_weights: Array | None = None) -> Music:
     """The song's side of the score: ``beat_weights`` (B,) 0…1 says what each beat is worth (all 1 by default)."""
@@ -87,6 +92,7 @@ class Frames:
     ----------
     base : (M,) the base frame shown (the nearest).
     rate : (M,) playback rate.
+    second : (M,) second of its clip.
     left : (M,) frames of the same clip and rate that follow.
     entry : (R, N) for each rate and base frame, its virtual frame.
     stop_worth : (M,) weight of a stop shown at this frame, else 0.
@@ -98,6 +104,7 @@ class Frames:
 
     base: Ints
     rate: Array
+    second: Array
     left: Ints
     entry: Ints
     stop_worth: Float32

@@ -226,7 +226,9 @@ def _advance(
     return free_node
 
 
-def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: float = REPEAT) -> Path:
+def beam_path(
+    problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: float = REPEAT, start: int = -1
+) -> Path:
     """The best of ``beam`` partial dances, led by ``value``, that (nearly) never shows a stretch of source twice."""
     frames = value.total
     laid = problem.frames
@@ -241,12 +243,14 @@ def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: floa
     most = frames * width + width
     nodes = (np.zeros(most, np.int32), np.zeros(most, np.int32), np.zeros(most, np.int32))
     _, _, rows = value.stretch(0)
-    starts = np.argsort(-rows[0], kind="stable")[:width]
+    starts = np.argsort(-rows[0], kind="stable")[:width] if start < 0 else np.array([start])
+    held = 0 if start < 0 else min(problem.hold, frames)  # a given start has just been joined: it must be danced first
     for s, f in enumerate(starts.tolist()):
-        state[0][0, s], state[2][0, s] = f, s
+        state[0][held, s], state[2][held, s] = f + held, s
         nodes[0][s], nodes[1][s], nodes[2][s] = -1, 0, f
-        state[3][0, s, laid.block[f] >> 6] = np.uint64(1) << np.uint64(laid.block[f] & 63)
-    state[4][0] = len(starts)
+        for block in np.unique(laid.block[f : f + held + 1]).tolist():
+            state[3][held, s, block >> 6] |= np.uint64(1) << np.uint64(block & 63)
+    state[4][held] = len(starts)
     free, t = len(starts), 0
     rings = np.zeros((problem.hold, len(laid)), np.float32)
     sums = _first_sums(problem, rings)

@@ -1,0 +1,94 @@
+"""From a library and a song to a plan, by a method chosen by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from onbeat.dance.frames import RATES, lay_frames
+from onbeat.dance.optimal import Path, Problem, ValueToGo, best_path, score_path
+from onbeat.dance.plan import DancePlan, Move
+from onbeat.dance.score import score_music
+from onbeat.dance.variety import beam_path
+from onbeat.errors import PlanError
+from onbeat.moves.graph import GRID
+from onbeat.moves.library import MoveLibrary
+from onbeat.music.song import Song
+
+JOIN = 0.25
+"""What every join costs, in units of a stop on its beat."""
+ROUGH = 0.30
+"""What a join of pose distance ``ALIKE`` costs besides; it grows with the square of the distance."""
+ALIKE = 0.30
+CHAPTER, AHEAD = 600.0, 15.0
+"""Seconds of song searched at once, and seconds beyond them that are known."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A plan and how good it is.
+
+    Parameters
+    ----------
+    plan : the moves.
+    objective : the score of the plan.
+    optimum : the score of the best plan of all on the same graph, repeats allowed; None where it was not computed.
+    seconds : how long the search took.
+    """
+
+    plan: DancePlan
+    objective: float
+    optimum: float | None
+    seconds: float
+
+
+def make_problem(library: MoveLibrary, song: Song, *, rhythm_only: bool = False, rates: tuple[float, ...] = RATES) -> Problem:
+    """What the searches search: the library's frames and joins, the song's worth, and what joins cost."""
+    if song.duration <= 0:
+        raise PlanError("the song has no length; choose a stretch of it with --start and --seconds")
+    costs = JOIN + ROUGH * (library.graph.costs / ALIKE) ** 2
+    music = score_music(song, rhythm_only=rhythm_only)
+    return Problem(library.graph, lay_frames(library, rates), music, costs.astype(np.float32))
+
+
+def optimal(
+    problem: Problem, *, variety: bool = True, step: Callable[[float], None] | None = None
+) -> tuple[Path, float]:
+    """The best path, without repeats or (``variety`` false) with, and the score of the best with.
+
+    A song of up to ``CHAPTER`` seconds is searched as a whole; a longer one in chapters of that length, each knowing
+    ``AHEAD`` seconds of the next, so that memory stays bounded. Then the optimum is that of the chapters.
+    """
+    total, chapter, ahead = problem.music.frames, round(CHAPTER * GRID), round(AHEAD * GRID)
+    times: list[int] = []
+    entries: list[int] = []
+    begin, optimum, start = 0, 0.0, -1
+    while begin < total:
+        last = total - begin <= chapter + ahead
+        part = replace(problem, music=problem.music.part(begin, total if last else begin + chapter + ahead))
+        value = ValueToGo(part)
+        path = beam_path(part, value, start=start) if variety else best_path(value, start=start)
+        cut = len(path.times) if last else int(np.flatnonzero(path.times <= chapter)[-1])
+        cut = max(cut, 1) if not last and len(path.times) > 1 else len(path.times)
+        times += (path.times[:cut] + begin).tolist()
+        entries += path.entries[:cut].tolist()
+        optimum += value.optimum
+        if last or cut == len(path.times):
+            break
+        start, begin = int(path.entries[cut]), begin + int(path.times[cut])
+        if step is not None:
+            step(begin / total)
+    return Path(np.array(times), np.array(entries), score_path(problem, times, entries)), optimum
+
+
+def plan_of(problem: Problem, library: MoveLibrary, path: Path, duration: float) -> DancePlan:
+    """A path as a plan in seconds."""
+    laid = problem.frames
+    at = [t / GRID for t in path.times.tolist()]
+    moves: list[Move] = []
+    for f, start, end in zip(path.entries.tolist(), at, [*at[1:], duration], strict=True):
+        clip, rate, second = int(library.graph.clip_of[laid.base[f]]), float(laid.rate[f]), float(laid.second[f])
+        moves.append(Move(clip, second, second + rate * (end - start), start, rate))
+    return DancePlan(tuple(moves), duration)
