@@ -68,12 +68,13 @@ def soften(path: Array, fps: float, seconds: float) -> Array:
     return gaussian_filter1d(path, max(seconds * fps, 1e-3), axis=0, mode="nearest")
 
 
-def exaggerate(path: Array, fps: float, amount: Array | float, seconds: float = 0.09) -> Array:
-    """Wind-up before and overshoot after each move: ``x + a (x − G∗x)``.
+def exaggeration(path: Array, fps: float, seconds: float) -> Array:
+    """What to add to a path for wind-up before and overshoot after each move: ``G½∗x − G∗x``.
 
-    The cartoon animation filter (Wang et al. 2006). It has no phase, so stops stay where they are.
+    The cartoon animation filter (Wang et al. 2006) as a difference of Gaussians, G of ``seconds`` and G½ of half of
+    it. It has no phase: where the path turns back at a key it is greatest on that key, so that stops stay there.
     """
-    return path + amount * (path - soften(path, fps, seconds))
+    return soften(path, fps, seconds / 2) - soften(path, fps, seconds)
 
 
 def follow_through(path: Array, fps: float, lag: float = 0.05) -> Array:

@@ -15,7 +15,7 @@ from onbeat.examples.dancers import Dancer
 from onbeat.examples.figures import Figure, Pose
 from onbeat.examples.footwork import FootPath, foot_path, highest_pelvis, settle, softest_minimum
 from onbeat.examples.limbs import arm_rotations, leg_rotations, mirrored
-from onbeat.examples.paths import Keys, bump, exaggerate, follow, follow_through, place_in, soften
+from onbeat.examples.paths import Keys, bump, exaggeration, follow, follow_through, place_in, soften
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 
@@ -25,6 +25,8 @@ FADING = 4.5
 """Ornaments shrink as ``exp(−FADING (speed − 1))``: there is no time for them in fast music."""
 SHRINKING = 0.3
 """Moves shrink as ``1 − SHRINKING (speed − 1)``."""
+OVERSHOOT = 0.3
+"""Beats over which moves wind up and overshoot."""
 ARMS_AHEAD = 0.026
 """Share of the height by which the pelvis is held back, since arms are mostly carried in front."""
 _POSE = {name: index for index, name in enumerate(Pose._fields)}
@@ -99,7 +101,7 @@ def _move(
     q[..., 0] = 1.0
     pelvis = soften(follow(times, score.pelvis, 0.1), fps, 0.08)
     floor = follow(times, score.floor)
-    arms = [_arm_path(dancer, keys, times, fps) for keys in score.hands]
+    arms = [_arm_path(dancer, keys, score.period, times, fps) for keys in score.hands]
     trunk = _trunk_path(dancer, score, times, fps)
     _groove(
         trunk, arms, follow(times, score.weight)[:, 0], _dip(times - 0.03, score.period) * floor[:, 0] * dancer.bounce
@@ -115,17 +117,19 @@ def _move(
 
 
 def _trunk_path(dancer: Dancer, score: Score, times: Times, fps: float) -> Array:
-    path = follow(times - dancer.lag / 2, score.trunk, dancer.hold * 0.6)
-    path = exaggerate(soften(path, fps, dancer.softness + 0.02), fps, dancer.overshoot * 0.6)
+    times = times - dancer.lag / 2
+    path = soften(follow(times, score.trunk, dancer.hold * 0.6), fps, dancer.softness + 0.02)
+    path += 0.6 * dancer.overshoot * exaggeration(follow(times, score.trunk), fps, OVERSHOOT * score.period)
     path[:, : _POSE["sink"]] *= dancer.amplitude
     path[:, _POSE["bow"]] += dancer.bow
     path[:, _POSE["sink"]] += dancer.crouch
     return path
 
 
-def _arm_path(dancer: Dancer, keys: Keys, times: Times, fps: float) -> Array:
+def _arm_path(dancer: Dancer, keys: Keys, period: float, times: Times, fps: float) -> Array:
     path = soften(follow(times, keys, dancer.hold), fps, dancer.softness)
-    return exaggerate(path, fps, dancer.overshoot * (1.0 - np.clip(path[:, 7:], 0.0, 1.0)))
+    free = 1.0 - np.clip(path[:, 7:], 0.0, 1.0)  # hands that meet do not go through each other
+    return path + dancer.overshoot * free * exaggeration(follow(times, keys), fps, OVERSHOOT * period)
 
 
 def _vector(x: Array, y: Array, z: Array) -> Rotations:

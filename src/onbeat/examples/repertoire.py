@@ -60,7 +60,7 @@ HIP_CIRCLES = Figure(
 TURN = Figure(
     name="turn",
     beats=8,
-    hands={0: "low side | low side", 2: "side | side", 4: "up | up", 6: "side | side"},
+    hands={0: "low side | low side", 2: "side up | side up", 4: "belly | belly", 6: "up | up"},
     steps=tuple(
         Step(
             2 * pair + (1 if foot == "L" else 2),
@@ -74,7 +74,12 @@ TURN = Figure(
         for foot, side in (("L", -1.0), ("R", 1.0))
         for angle in [np.pi / 4 * (pair + 1)]
     ),
-    trunk={0: Pose(), 2: Pose(twist=0.15, look=0.3), 4: Pose(bow=-0.04, nod=-0.08, twist=0.1, look=0.2), 6: Pose()},
+    trunk={
+        0: Pose(),
+        2: Pose(twist=0.12, look=0.3, bow=-0.03),
+        4: Pose(bow=0.08, twist=0.1, look=0.2, nod=0.08),
+        6: Pose(bow=-0.06, nod=-0.12, look=0.15),
+    },
     travel=(0.0, 0.0, 180.0),
     bounce=0.016,
 )
