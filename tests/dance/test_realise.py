@@ -281,6 +281,8 @@ def test_mistakes_are_named(clips, plan):
         realise(clips, plan, blend="magic")
     with pytest.raises(PlanError, match="move 3 shows clip 3; there are 3 clips"):
         realise(clips[:3], plan)
+    with pytest.raises(PlanError, match=r"move 0 shows 11.00…13.00 s of clip 'swaying 0', which lasts 12.00 s"):
+        realise(clips, DancePlan((Move(0, 11.0, 13.0, 0.0),), 2.0))
     other = clips[0].replace(name="other")
     longer = Motion(skeleton(arm=0.4), other.rotations, other.root_positions, 60.0, "other")
     with pytest.raises(FormatError, match="'other' has another skeleton"):

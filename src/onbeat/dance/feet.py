@@ -159,12 +159,12 @@ def _eased(offsets: Array, held: Bools, rests: Bools, times: Times) -> Array:
     out, frames = offsets.copy(), len(offsets)
     step = times[1] - times[0] if frames > 1 else 1.0
     ease, quickest = max(1, round(EASE / step)), max(1, round(QUICKEST / step))
-    landings, spans = runs(rests), runs(held)
+    spans, stands = runs(held), np.array(runs(rests)).reshape(-1, 2)
+    landings, leavings = np.append(stands[:, 0], frames + ease), np.insert(stands[:, 1], 0, -ease)
     for k, (first, last) in enumerate(spans):
-        free = min([a for a, _ in landings if a >= last], default=frames + ease) - last
-        leave = last - 1 + int(np.clip(free, quickest, ease))
-        free = first - max([b for _, b in landings if b <= first], default=-ease)
-        arrive = first - int(np.clip(free, quickest, ease))
+        after = int(landings[np.searchsorted(landings, last)]) - last
+        before = first - int(leavings[np.searchsorted(leavings, first, side="right") - 1])
+        leave, arrive = last - 1 + min(max(after, quickest), ease), first - min(max(before, quickest), ease)
         following = spans[k + 1][0] if k + 1 < len(spans) else frames + 2 * ease
         previous = spans[k - 1][1] if k else -2 * ease
         if following - last < 2 * ease:

@@ -25,6 +25,8 @@ Warp = Callable[[Times], Times]
 """From the dance's seconds to the plan's seconds, never going back."""
 FAR = 0.95
 """Cosine of half the angle between neighbouring frames below which rotations are read linearly."""
+BEYOND = 0.1
+"""Seconds a move may go past the ends of its clip; the end's pose is held."""
 CLOCK_STEP = 1 / 480
 """Seconds between the points at which a warp is inverted."""
 
@@ -216,6 +218,12 @@ def _check(clips: Sequence[Motion], plan: DancePlan) -> None:
     for number, move in enumerate(plan.moves):
         if not 0 <= move.clip < len(clips):
             raise PlanError(f"move {number} shows clip {move.clip}; there are {len(clips)} clips, counted from 0")
+        clip = clips[move.clip]
+        if move.from_s < -BEYOND or move.to_s > clip.duration + BEYOND:
+            raise PlanError(
+                f"move {number} shows {move.from_s:.2f}…{move.to_s:.2f} s of clip {clip.name!r}, which lasts "
+                f"{clip.duration:.2f} s; plan within the clip"
+            )
     for index in sorted({move.clip for move in plan.moves}):
         clip, first = clips[index], clips[plan.moves[0].clip]
         if clip.skeleton != first.skeleton:

@@ -53,8 +53,9 @@ def steps_between(
     strayed, landed = np.zeros((2, 3)), np.zeros(2, np.int64)  # from where each foot came down: x, y and yaw
     for frame in (np.flatnonzero(np.diff(moves)) + 1).tolist():
         join = int(moves[frame - 1])
-        part = (times - windows.centres[join]) / (PARTED * windows.spans[join])  # -0.5 to 0.5 inside
-        near = np.abs(part) < 0.5
+        half = PARTED * windows.spans[join] / 2
+        near = slice(*np.searchsorted(times, windows.centres[join] + np.array([-half, half])))
+        part = (times[near] - windows.centres[join]) / half  # -1 to 1
         for foot in np.flatnonzero(contacts[frame - 1] | contacts[frame]).tolist():
             if not out[landed[foot] : frame, foot].all():
                 strayed[foot] = 0.0
@@ -66,5 +67,5 @@ def steps_between(
                 out[near, foot] = False
             elif apart > FARTHEST or abs(strayed[foot, 2]) > MOST_TURNED:
                 out[near, foot] = False
-                lifts[near, foot] = (1 - 4 * part[near] ** 2) ** 2 * min(LIFT * max(apart, FARTHEST), HIGHEST)
+                lifts[near, foot] = (1 - part**2) ** 2 * min(LIFT * max(apart, FARTHEST), HIGHEST)
     return Steps(out, lifts)
