@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from onbeat._shapes import Array, Bools, Float32, Ints
+from onbeat._shapes import Bools, Float32, Ints
 
 GRID = 30.0
 """Hz, the rate of the graph's frames."""
@@ -42,7 +42,7 @@ class MotionGraph:
     costs: Float32
 
     @classmethod
-    def of(cls, clip_of: Ints, first: Ints, second: Ints, distance: Array) -> MotionGraph:
+    def of(cls, clip_of: Ints, first: Ints, second: Ints, distance: Float32) -> MotionGraph:
         """A graph from close pairs of frames, each used in both directions where there is room.
 
         A join leaves a frame that has ``MARGIN`` seconds of its clip after it, and enters one that has ``MARGIN``

@@ -16,7 +16,7 @@ from onbeat.motion.links import link_directions, link_error
 from onbeat.motion.motion import Motion
 from onbeat.moves.graph import GRID, MARGIN, STRETCH, MotionGraph
 from onbeat.moves.poses import pose_vectors
-from onbeat.moves.similarity import close_pairs
+from onbeat.moves.similarity import clip_pairs
 
 CLIP_RATE = 60.0
 """Hz, the highest rate at which clips are kept."""
@@ -74,10 +74,14 @@ class MoveLibrary:
     ----------
     clips : in the order of the graph's frames.
     graph : over all frames at ``GRID`` Hz.
+    problems : files that are not in it, and why, a line each.
+    notes : what was assumed of files that are.
     """
 
     clips: tuple[Clip, ...]
     graph: MotionGraph
+    problems: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @classmethod
     def of(
@@ -86,9 +90,8 @@ class MoveLibrary:
         """Find the joins between clips, all of one skeleton; a ``LibraryError`` says if there is none to use."""
         if not clips:
             raise LibraryError("the library has no clips; give a folder of BVH, ASF/AMC or npz motion")
-        poses = np.concatenate([clip.poses for clip in clips])
         clip_of = np.repeat(np.arange(len(clips)), [len(clip.poses) for clip in clips])
-        first, second, distance = close_pairs(poses, poses, reach, step=step)
+        first, second, distance = clip_pairs([clip.poses for clip in clips], reach, step=step)
         return cls(tuple(clips), MotionGraph.of(clip_of, first, second, distance))
 
     @cached_property

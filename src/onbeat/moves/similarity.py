@@ -6,7 +6,7 @@ reads a rim of its neighbours, so that minima at its edge are those of the whole
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Float32, Ints
 
+_Pairs = tuple[Ints, Ints, Float32]
 BLOCK = 1024  # rows and columns of a block: 4 MB of float32, which stays in cache
 
 
@@ -105,13 +106,70 @@ def close_pairs(
                 if step is not None:
                     step((done + 1) / len(jobs))
 
-    parts = list(results())
+    first, second, distance = _ordered(list(results()))
+    keep = first < second if same else slice(None)
+    return first[keep], second[keep], distance[keep]
+
+
+def clip_pairs(
+    clips: Sequence[Float32],
+    limit: float,
+    wanted: Callable[[int, int], bool] = lambda a, b: True,
+    reach: int = 2,
+    workers: int = 2,
+    step: Callable[[float], None] | None = None,
+) -> tuple[Ints, Ints, Float32]:
+    """Close pairs of frames of several clips, each two clips searched for themselves.
+
+    The pairs of two clips depend on nothing but these two: a frame nearer than ``reach`` to an end of its clip, whose
+    neighbours are not all known, is in no pair. So pairs that were found once can be kept when other clips change.
+
+    Parameters
+    ----------
+    clips : for each clip (n, D) pose vectors.
+    wanted : tells whether clips a ≤ b are to be searched.
+    limit, reach, workers, step : as for :func:`close_pairs`.
+
+    Returns
+    -------
+    Frames of all clips in a row: the first of each pair, the second, later one, and distances, in order.
+    """
+    starts = np.concatenate(([0], np.cumsum([len(clip) for clip in clips]))).astype(np.int64)
+    # matrix products of equal shapes on equal memory layouts give equal bytes
+    clips = [np.array(clip, np.float32, order="C") for clip in clips]
+
+    def row(a: int) -> list[_Pairs]:
+        found: list[_Pairs] = []
+        for b in range(a, len(clips)):
+            if wanted(a, b):
+                first, second, squared = _two_clips(clips[a], clips[b], limit, reach)
+                found.append((first + starts[a], second + starts[b], squared))
+        return found
+
+    found: list[_Pairs] = []
+    with threadpool_limits(1, "blas"), ThreadPoolExecutor(max(workers, 1)) as pool:
+        for done, pairs in enumerate(pool.map(row, range(len(clips)))):
+            found += pairs
+            if step is not None:
+                step(1 - ((len(clips) - 1 - done) / len(clips)) ** 2)
+    return _ordered(found)
+
+
+def _two_clips(a: Float32, b: Float32, limit: float, reach: int) -> _Pairs:
+    """Minima of the table of two clips away from its rim; of a clip with itself those above the diagonal."""
+    starts = [(i, j) for i in range(0, len(a), BLOCK) for j in range(0, len(b), BLOCK) if a is not b or j + BLOCK > i]
+    parts = [_block(a, b, start, limit * limit, reach) for start in starts]
+    first, second, squared = (np.concatenate(column) for column in zip(*parts, strict=True))
+    keep = (first >= reach) & (first < len(a) - reach) & (second >= reach) & (second < len(b) - reach)
+    if a is b:
+        keep &= first < second
+    return first[keep], second[keep], squared[keep]
+
+
+def _ordered(parts: list[_Pairs]) -> _Pairs:
+    """Parts joined in order of first and second frame, squared distances made distances."""
     if not parts:
         return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, np.float32)
     first, second, squared = (np.concatenate(column) for column in zip(*parts, strict=True))
-    if same:
-        keep = first < second
-        first, second, squared = first[keep], second[keep], squared[keep]
     order = np.lexsort((second, first))
-    distance = np.sqrt(np.maximum(squared[order], 0)).astype(np.float32)
-    return first[order], second[order], distance
+    return first[order], second[order], np.sqrt(np.maximum(squared[order], 0)).astype(np.float32)

@@ -1,0 +1,128 @@
+"""From recordings to clips: one body for all of them, everyone on the floor, and mirror images."""
+
+from __future__ import annotations
+
+import hashlib
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from onbeat.errors import LibraryError, OnbeatError
+from onbeat.motion.body import Body
+from onbeat.motion.mirror import mirrored
+from onbeat.motion.motion import Motion
+from onbeat.motion.retarget import retarget, stands_in_rest
+from onbeat.motion.skeleton import Skeleton
+from onbeat.moves.library import CLIP_RATE, SHORTEST, Clip
+from onbeat.moves.recordings import Recording
+
+MIRROR_SUFFIX = "~mirror"
+
+
+@dataclass(frozen=True)
+class Read:
+    """What is known of a recording that could be read.
+
+    Parameters
+    ----------
+    recording : which.
+    body : digest of its own skeleton.
+    seconds : how long it is.
+    notes : what its reader warned of.
+    load : its motion, at ``CLIP_RATE`` at most.
+    """
+
+    recording: Recording
+    body: str
+    seconds: float
+    notes: tuple[str, ...]
+    load: Callable[[], Motion]
+
+
+def skeleton_digest(skeleton: Skeleton) -> str:
+    """SHA-256 of all of a skeleton."""
+    total = hashlib.sha256(repr(skeleton.names).encode())
+    for array in (skeleton.parents, skeleton.offsets, skeleton.end_sites):
+        total.update(array.tobytes())
+    return total.hexdigest()
+
+
+def read_recording(recording: Recording) -> Read:
+    """Read a recording and see that it can be a clip; a ``LibraryError`` gives the reason if it cannot."""
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("always", UserWarning)
+        try:
+            motion = recording.read()
+            Body.of(motion.skeleton)
+        except (OnbeatError, OSError) as error:
+            raise LibraryError(_one_line(error, recording)) from None
+    if motion.duration < SHORTEST:
+        raise LibraryError(f"too short: {motion.duration:.1f} s, at least {SHORTEST:.1f} s are needed")
+    body, seconds = skeleton_digest(motion.skeleton), motion.duration
+    motion = motion if motion.fps <= CLIP_RATE + 1e-6 else motion.resampled(CLIP_RATE)
+    notes = tuple(dict.fromkeys(_one_line(warning.message, recording) for warning in noted))
+    return Read(recording, body, seconds, notes, lambda: motion)
+
+
+def _one_line(error: Exception | Warning | str, recording: Recording) -> str:
+    """A message without line breaks and without the file's name, which is told beside it."""
+    text = " ".join(str(error).split())
+    path = getattr(recording.read, "args", [None])[0]
+    for name in (f"{path}: ", f"{recording.file}: "):
+        text = text.removeprefix(name)
+    return text.replace(str(path), recording.file) if path else text
+
+
+def renamed(clip: Clip, name: str, source: int) -> Clip:
+    """The clip, or mirror image, of a recording that has another name and number now."""
+    name += MIRROR_SUFFIX if clip.mirrored else ""
+    if (clip.name, clip.source) == (name, source):
+        return clip
+    return replace(clip, motion=clip.motion.replace(name=name), name=name, source=source)
+
+
+def main_body(reads: Sequence[Read]) -> str:
+    """Digest of the skeleton that most seconds of motion are on; of equals the first."""
+    seconds: dict[str, float] = {}
+    for read in reads:
+        seconds[read.body] = seconds.get(read.body, 0.0) + read.seconds
+    return max(seconds, key=lambda body: round(seconds[body], 6))
+
+
+@dataclass(frozen=True)
+class Stage:
+    """The body that all clips of a library are put on.
+
+    Parameters
+    ----------
+    model : the first recording on that body; its motion tells how the body stands where its rest pose does not.
+    """
+
+    model: Read
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The model's motion."""
+        return self.model.load()
+
+    @cached_property
+    def skeleton(self) -> Skeleton:
+        """The library's skeleton."""
+        return self.motion.skeleton
+
+    @cached_property
+    def reference(self) -> str:
+        """What clips depend on besides their own recording: the skeleton and, if it is needed, the model's content."""
+        standing = stands_in_rest(Body.of(self.skeleton))
+        return skeleton_digest(self.skeleton) + ("" if standing else self.model.recording.digest)
+
+    def clips(self, read: Read, source: int, *, mirror: bool) -> list[Clip]:
+        """The clip of a recording, on its floor, and its mirror image."""
+        name = read.recording.name
+        motion = retarget(read.load(), self.skeleton, self.motion).replace(name=name)
+        clips = [Clip.of(motion, name, source)]
+        if mirror:
+            name += MIRROR_SUFFIX
+            clips.append(Clip.of(mirrored(motion).replace(name=name), name, source, mirrored=True))
+        return clips

@@ -1,0 +1,57 @@
+"""One builder at a time: a lock that dies with its holder."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path
+
+from onbeat.errors import LibraryError
+
+LOCK = ".lock"
+
+
+@contextmanager
+def building(folder: Path) -> Generator[None, None, None]:
+    """Hold the lock of a library's folder.
+
+    The operating system drops the lock when its process ends, however it ends, so no stale lock is ever left; the file
+    stays and holds the number of the last process for the message.
+
+    Raises
+    ------
+    LibraryError
+        If another builder holds it, or the folder cannot be written.
+    """
+    try:
+        handle = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
+    except OSError as error:
+        raise LibraryError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
+    try:
+        try:
+            _lock(handle)
+        except OSError:
+            holder = os.read(handle, 20).decode(errors="replace").strip() or "another"
+            raise LibraryError(
+                f"{folder} is being built by process {holder}; wait until it is done, or choose another folder"
+            ) from None
+        os.ftruncate(handle, 0)
+        os.pwrite(handle, str(os.getpid()).encode(), 0)
+        yield
+    finally:
+        os.close(handle)
+
+
+def _lock(handle: int) -> None:
+    """Lock a file or raise ``OSError`` at once."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        os.lseek(handle, 64, os.SEEK_SET)  # past the number, which others may read
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

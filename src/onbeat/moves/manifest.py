@@ -1,0 +1,131 @@
+"""``library.json``: what is in the folder of a library; the arrays lie beside it.
+
+Version 1. ``data`` names the sub-folder of arrays. Clips follow each other in all arrays: clip k has ``frames`` rows
+of ``rotations`` and ``root_positions``, ``poses`` rows of ``poses`` and ``intensity``, and ``stops`` rows of ``stops``.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Literal
+
+import msgspec
+
+from onbeat.errors import LibraryError
+from onbeat.motion.skeleton import Skeleton
+from onbeat.moves import graph, library, poses
+
+FORMAT = "onbeat library"
+VERSION = 1
+METHOD = 1
+"""Raised when clips or joins are made in another way, so that stored ones are not mixed with them."""
+
+
+class Clips(msgspec.Struct, forbid_unknown_fields=True):
+    """One clip.
+
+    Parameters
+    ----------
+    name, source, mirrored : as of ``library.Clip``.
+    file : its motion file, relative to the folder that was given.
+    sha256 : of the file's content.
+    body, seconds, notes : of the recording, as of ``clips.Read``.
+    fps : of the stored motion.
+    frames, poses, stops : how many rows it has in the arrays.
+    """
+
+    name: str
+    source: int
+    mirrored: bool
+    file: str
+    sha256: str
+    body: str
+    seconds: float
+    notes: list[str]
+    fps: float
+    frames: int
+    poses: int
+    stops: int
+
+
+class Body(msgspec.Struct, forbid_unknown_fields=True):
+    """A skeleton."""
+
+    names: list[str]
+    parents: list[int]
+    offsets: list[tuple[float, float, float]]
+    end_sites: list[bool]
+
+    @classmethod
+    def of(cls, skeleton: Skeleton) -> Body:
+        """Lists of a skeleton's arrays."""
+        s = skeleton
+        return cls(list(s.names), s.parents.tolist(), [tuple(row) for row in s.offsets.tolist()], s.end_sites.tolist())
+
+    def skeleton(self) -> Skeleton:
+        """The skeleton, exact to the last bit."""
+        return Skeleton(self.names, self.parents, self.offsets, self.end_sites)
+
+
+class Problem(msgspec.Struct, forbid_unknown_fields=True):
+    """A file that is not in the library, and why."""
+
+    file: str
+    sha256: str
+    reason: str
+
+
+class Manifest(msgspec.Struct, forbid_unknown_fields=True):
+    """All that a library is besides its arrays.
+
+    Parameters
+    ----------
+    method : of the constants by which clips and joins were found (see :func:`method_digest`).
+    mirror, fps : the options of the build.
+    reference : what all clips depend on, as of ``clips.Stage``.
+    """
+
+    method: str
+    mirror: bool
+    fps: float | None
+    reference: str
+    skeleton: Body
+    clips: list[Clips]
+    problems: list[Problem]
+    data: str
+    format: Literal["onbeat library"] = FORMAT
+    version: int = VERSION
+
+
+class _Version(msgspec.Struct):
+    format: str = ""
+    version: int = 0
+
+
+def decode(data: bytes, where: str) -> Manifest:
+    """Read a manifest; a ``LibraryError`` says what is wrong with it and to build it again."""
+    try:
+        found = msgspec.json.decode(data, type=_Version)
+        if found.format != FORMAT:
+            raise LibraryError(f"{where} is not the manifest of a library; build the library again")
+        if found.version != VERSION:
+            raise LibraryError(f"{where} is of version {found.version}, {VERSION} is expected; build the library again")
+        return msgspec.json.decode(data, type=Manifest)
+    except msgspec.DecodeError as error:
+        raise LibraryError(f"{where} is damaged ({error}); build the library again") from None
+
+
+def encode(manifest: Manifest) -> bytes:
+    """The same manifest gives the same bytes."""
+    return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
+
+
+def method_digest() -> str:
+    """A digest of every constant that clips and joins depend on: with another value, stored ones are not used."""
+    constants = {
+        f"{module.__name__}.{name}": value
+        for module in (poses, graph, library)
+        for name, value in sorted(vars(module).items())
+        if name.isupper() and isinstance(value, int | float | dict)
+    }
+    return f"{METHOD}-{hashlib.sha256(repr(constants).encode()).hexdigest()[:16]}"

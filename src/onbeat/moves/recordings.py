@@ -1,0 +1,109 @@
+"""Recordings: the motion files a library is made of, known by their content."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from onbeat.errors import FormatError, LibraryError
+from onbeat.formats.asfamc import skeleton_file
+from onbeat.formats.registry import motion_files, read_motion
+from onbeat.motion.motion import Motion
+
+
+@dataclass(frozen=True)
+class Recording:
+    """One motion that can be read when it is needed.
+
+    Parameters
+    ----------
+    name : for people and plans, no two alike in a library.
+    file : where it was found, relative to the folder that was given.
+    digest : SHA-256 of its content (with its skeleton file's), so that what changed is known without reading it.
+    read : reads it.
+    """
+
+    name: str
+    file: str
+    digest: str
+    read: Callable[[], Motion]
+
+
+def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Recording]:
+    """The recordings in files and folders, in the order given and sorted within folders, each file once.
+
+    Parameters
+    ----------
+    paths : motion files and folders of them.
+    fps : the rate of files that store none.
+
+    Raises
+    ------
+    LibraryError
+        If a path does not exist or there is no motion file in all of them.
+    """
+    found: dict[Path, tuple[Path, str]] = {}
+    for path in paths:
+        for file, label in _files(Path(path)):
+            found.setdefault(file.resolve(), (file, label))
+    if not found:
+        places = ", ".join(str(path) for path in paths) or "no path"
+        raise LibraryError(f"no motion files in {places}; give a folder of BVH, ASF/AMC or npz motion")
+    files = list(found.values())
+    return [
+        Recording(name, label, content_digest(file), partial(read_motion, file, fps))
+        for (file, label), name in zip(files, _names([label for _, label in files]), strict=True)
+    ]
+
+
+def _files(path: Path) -> list[tuple[Path, str]]:
+    """The files of a path and what they are called relative to it."""
+    if path.is_dir():
+        return [(file, file.relative_to(path).as_posix()) for file in motion_files(path)]
+    if not path.exists():
+        raise LibraryError(f"no file or folder {path}; give a folder of BVH, ASF/AMC or npz motion")
+    return [(path, path.name)]
+
+
+def _names(labels: list[str]) -> list[str]:
+    """File stems; where two are alike, with suffix, then with folders, then with a number."""
+    named = labels
+    choices = ([Path(label).stem for label in labels], [Path(label).name for label in labels], labels)
+    for choice in reversed(choices):
+        counts = Counter(choice)
+        named = [short if counts[short] == 1 else name for short, name in zip(choice, named, strict=True)]
+    seen: Counter[str] = Counter()
+    unique: list[str] = []
+    for name in named:
+        seen[name] += 1
+        unique.append(name if seen[name] == 1 else f"{name} ({seen[name]})")
+    return unique
+
+
+def content_digest(file: Path) -> str:
+    """SHA-256 of a motion file and, for AMC, of its skeleton file; unreadable files have none ("")."""
+    total = hashlib.sha256()
+    try:
+        total.update(file.read_bytes())
+        if file.suffix.lower() == ".amc":
+            total.update(skeleton_file(file).read_bytes())
+    except OSError:
+        return ""
+    except FormatError:
+        pass  # an AMC without its ASF; reading says so
+    return total.hexdigest()
+
+
+def motion_digest(motion: Motion) -> str:
+    """SHA-256 of a motion in memory."""
+    total = hashlib.sha256(repr((motion.skeleton.names, motion.fps)).encode())
+    skeleton = motion.skeleton
+    for array in (skeleton.parents, skeleton.offsets, skeleton.end_sites, motion.rotations, motion.root_positions):
+        total.update(array.tobytes())
+    if motion.translations is not None:
+        total.update(motion.translations.tobytes())
+    return total.hexdigest()
