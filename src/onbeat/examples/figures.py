@@ -53,9 +53,9 @@ PLACES: Mapping[str, Place] = {
     "high": Place(0.50, 0.22, 0.80),
     "high front": Place(0.06, 0.70, 0.65),
     "up": Place(0.14, 0.16, 0.945),
-    "clap": Place(-0.24, 0.62, -0.12, swivel=0.35, flex=-0.45),
-    "clap low": Place(-0.24, 0.52, -0.52, swivel=0.35, flex=-0.45),
-    "clap high": Place(-0.22, 0.48, 0.52, swivel=0.35, flex=-0.45),
+    "clap": Place(-0.24, 0.62, -0.12, swivel=0.35, flex=-0.58),
+    "clap low": Place(-0.24, 0.52, -0.52, swivel=0.35, flex=-0.58),
+    "clap high": Place(-0.22, 0.48, 0.52, swivel=0.35, flex=-0.58),
 }
 
 

@@ -61,7 +61,16 @@ class Performance:
 def perform(
     dancer: Dancer, figures: Sequence[Figure], speed: float, cycles: int, rng: np.random.Generator, fps: float = 60.0
 ) -> Performance:
-    """One clip: each of ``figures`` danced ``cycles`` times at ``speed`` times ``TEMPO``."""
+    """One clip: each of ``figures`` danced ``cycles`` times at ``speed`` times ``TEMPO``.
+
+    Examples
+    --------
+    >>> from onbeat.examples.dancers import DANCERS
+    >>> from onbeat.examples.folk_dance import FOLK_DANCE
+    >>> clip = perform(DANCERS[0], [FOLK_DANCE], 1.0, 2, np.random.default_rng(0))
+    >>> clip.task, clip.person, len(clip.keyposes), round(clip.motion.duration, 1)
+    ('folk dance', 'Aiko', 16, 16.2)
+    """
     period = 60.0 / TEMPO / speed
     calmer = 1.0 - SHRINKING * (speed - 1.0)
     dancer = replace(dancer, amplitude=dancer.amplitude * calmer, stride=dancer.stride * calmer)
