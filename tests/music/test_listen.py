@@ -73,6 +73,15 @@ def test_a_song_is_well_formed() -> None:
         assert Song.from_json(song.to_json()).to_json() == song.to_json()
 
 
+def test_no_beats_in_silence_before_and_after() -> None:
+    beats, audio = band(120, seconds=12.0)
+    silence = np.zeros(5 * audio.rate, np.float32)
+    song = listen_samples(Audio(np.concatenate([silence, audio.samples, silence]), audio.rate))
+    assert abs(len(song.beats) - len(beats)) <= 1
+    assert np.abs(song.beats[0] - 5.0 - beats[0]) < 0.02
+    assert song.beats[-1] < 17.5
+
+
 def test_strong_beats_are_stronger() -> None:
     rng = np.random.default_rng(0)
     beats = beat_times(120, 20.0)

@@ -22,6 +22,7 @@ NAME = "barpointer"
 STEADINESS = 60.0  # cost of a change of tempo, per unit of its ratio
 PRIOR_WEIGHT = 3.0  # per second
 DELAY = 0.0015  # [s] midway between what clicks and drums (5 ms early) and soft attacks (7 ms late) need
+AUDIBLE = 1e-4  # of the power of the loud passages
 REACH = 0.025  # [s] around a frame of the decoder, in which the attack of the beat is looked for
 
 
@@ -43,6 +44,16 @@ def refine(times: Times, attacks: Float32, rate: float) -> Times:
     return np.maximum.accumulate(np.where(middle > 0.0, (best + shift) / rate, times))
 
 
+def sounding_stretch(loudness: Float32, rate: float) -> tuple[float, float]:
+    """Seconds between which there is sound: within 40 dB of the loud passages; no beat is heard outside.
+
+    >>> sounding_stretch(np.array([0, 0, 1, 1, 1, 0], np.float32), 10.0)
+    (0.1, 0.5)
+    """
+    sounding = np.flatnonzero(loudness > AUDIBLE * np.percentile(loudness, 95))
+    return (float(sounding[0] - 1) / rate, float(sounding[-1] + 1) / rate) if len(sounding) else (0.0, 0.0)
+
+
 def _harmony_at_onset_frames(hearing: Hearing) -> Array:
     harmony = new_harmony(hearing.tones, hearing.tone_rate)
     times = np.arange(len(hearing.bands)) / hearing.onset_rate
@@ -62,7 +73,8 @@ def listen_barpointer(blocks: Iterable[Float32], rate: int, progress: Progress |
     log_odds = beat_log_odds(strength, unit_power(_harmony_at_onset_frames(hearing)))
     frames = decode_beats(log_odds, beat_space(hearing.onset_rate, STEADINESS), PRIOR_WEIGHT)
     times = refine(frames / hearing.onset_rate, hearing.attacks, hearing.attack_rate) - DELAY
-    inside = (times >= 0.0) & (times < hearing.duration)
+    begin, end = sounding_stretch(hearing.loudness, hearing.tone_rate)
+    inside = (times >= max(begin, 0.0)) & (times < min(end, hearing.duration))
     frames, times = frames[inside], times[inside]
     slices = harmony_slices(hearing.tones, hearing.tone_rate, times)
     accent = accents(flux, frames)

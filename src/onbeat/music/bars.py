@@ -42,6 +42,8 @@ def downbeat_log_odds(slices: Array, bass_accent: Array) -> Array:
     slices : (B, semitones) what sounds from each beat to the next.
     bass_accent : (B,) onset strength of the lowest band at each beat.
     """
+    if not len(slices):
+        return np.zeros(0)
     chroma = fold_octaves(slices)
     cues = np.stack([harmony_distance(chroma, 1), harmony_distance(chroma, 2), bass_accent], axis=1)
     scaled = (cues - cues.mean(axis=0)) / np.maximum(cues.std(axis=0), CUE_SCALES)
