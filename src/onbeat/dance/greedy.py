@@ -26,12 +26,11 @@ def greedy_path(problem: Problem, horizon_s: float = HORIZON) -> Path:
     roads = Roads.of(problem)
     ahead = max(round(horizon_s * GRID), 1)
     table = reward_table(problem, 0, ahead)
-    frame = int(np.argmax(roads.values(table, problem.music.frames - len(table))[0]))
+    frame = int(np.argmax(roads.values(0, table)[0]))
     t, times, entries = 0, [0], [frame]
     while t < roads.frames:
         table = reward_table(problem, t, ahead)
-        rest = roads.frames - t - len(table)
-        found = roads.branches(frame, table, roads.values(table, rest, roads.hold), rest)
+        found = roads.branches(t, frame, table, roads.values(t, table, roads.hold))
         t, frame = follow(roads, found, int(np.argmax(found.value)), t, frame, times, entries)
     return Path(np.array(times), np.array(entries), score_path(problem, times, entries))
 
@@ -40,7 +39,7 @@ def reward_table(problem: Problem, t: int, ahead: int) -> Float32:
     """(H, M) worth of each frame at song frames t, t + 1, … for ``ahead`` frames or to the song's end."""
     table = np.empty((min(ahead, problem.music.frames - t), len(problem.frames)), np.float32)
     for k, row in enumerate(table):
-        rewards(t + k, row, *problem.arrays[6:])
+        rewards(t + k, row, *problem.arrays[6:12])
     return table
 
 

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from onbeat._shapes import Array, Ints
-from onbeat.dance.optimal import Problem
+from onbeat._shapes import Array, Float32, Ints
+from onbeat.dance.optimal import Problem, seam
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 
@@ -32,7 +32,7 @@ class Branches(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Roads:
-    """Frames and joins as the look-ahead walks them: a problem without its music.
+    """Frames and joins as the look-ahead walks them.
 
     Parameters
     ----------
@@ -40,6 +40,8 @@ class Roads:
     left : (M,) frames of the same clip and rate that follow.
     indptr, goal, costs : the joins that leave each node in compressed rows: which goal they lead to, what they cost.
     entries : (R, goals) the frames at which a goal can be entered, or −1.
+    seams : what each join does to the stops beside it, as in ``Problem.changes``; all zeros for nothing.
+    beats : the worth of a stop at each instant, as in ``Music.beat_worth``.
     hold : frames danced at least after a join.
     frames : frames of the song.
     """
@@ -50,17 +52,26 @@ class Roads:
     goal: Ints
     costs: Array
     entries: Ints
+    seams: tuple[Ints, Ints, Float32]
+    beats: Float32
     hold: int
     frames: int
 
     @classmethod
     def of(cls, problem: Problem) -> Roads:
         """All frames and joins of a problem."""
-        graph, laid = problem.graph, problem.frames
-        costs = problem.join_costs.astype(np.float64)
-        entries = problem.entries.astype(np.int64)
-        frames = problem.music.frames
-        return cls(laid.base, laid.left, graph.indptr, problem.goals[1], costs, entries, problem.hold, frames)
+        return cls(
+            problem.frames.base,
+            problem.frames.left,
+            problem.graph.indptr,
+            problem.goals[1],
+            problem.join_costs.astype(np.float64),
+            problem.entries.astype(np.int64),
+            problem.changes,
+            problem.music.beat_worth,
+            problem.hold,
+            problem.music.frames,
+        )
 
     def __len__(self) -> int:
         return len(self.base)
@@ -77,27 +88,28 @@ class Roads:
             )
         return found
 
-    def values(self, table: Array, rest: int, first: int = 0) -> Array:
-        """(H + 1, M) best sum of ``table`` (H, M) less costs from each frame on, rows before ``first`` left out.
+    def values(self, t: int, table: Array, first: int = 0) -> Array:
+        """(H + 1, M) best sum of ``table`` less the costs of joins, from each frame on; rows before ``first`` left out.
 
-        ``rest`` is how many frames of the song follow the horizon; frames from which it cannot be danced to its end
-        have the value ``IMPOSSIBLE``.
+        ``table`` (H, M) holds what each frame is worth at the song frames from t on. Frames from which the song cannot
+        be danced to its end have the value ``IMPOSSIBLE``.
         """
+        rest = self.frames - t - len(table)
         values = np.full((len(table) + 1, len(self)), IMPOSSIBLE)
         values[-1] = np.where(self.survival >= rest, 0.0, IMPOSSIBLE)
-        _values(
-            table, values, first, rest, self.hold, self.indptr, self.goal, self.costs, self.base, self.left,
-            self.entries, self.survival,
-        )  # fmt: skip
+        _values(t, first, table, values, *self._arrays)
         return values
 
-    def branches(self, frame: int, table: Array, values: Array, rest: int) -> Branches:
+    def branches(self, t: int, frame: int, table: Array, values: Array) -> Branches:
         """All first branches from ``frame``, each with its best completion up to the horizon, in order of wait."""
-        found = _branches(
-            frame, table, values, rest, self.hold, self.indptr, self.goal, self.costs, self.base, self.left,
-            self.entries, self.survival,
+        return Branches(*_branches(t, frame, table, values, *self._arrays))
+
+    @cached_property
+    def _arrays(self) -> tuple[object, ...]:
+        return (
+            self.frames, self.hold, self.indptr, self.goal, self.costs, self.base, self.left, self.entries,
+            self.survival, *self.seams, self.beats,
         )  # fmt: skip
-        return Branches(*found)
 
 
 @njit(cache=True, boundscheck=False)
@@ -139,8 +151,12 @@ def _landing(values, k, g, hold, rest, survival):
 
 
 @njit(cache=True, boundscheck=False)
-def _values(table, values, first, rest, hold, indptr, goal, costs, base, left, entries, survival):
+def _values(
+    t, first, table, values,
+    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, beats,
+):  # fmt: skip
     horizon, size = table.shape
+    rest = frames - t - horizon
     nodes, goals = len(indptr) - 1, entries.shape[1]
     best, leap = np.empty(goals), np.empty(nodes)
     sums = np.zeros(size + 1)
@@ -159,7 +175,8 @@ def _values(table, values, first, rest, hold, indptr, goal, costs, base, left, e
         for i in range(nodes):
             top = IMPOSSIBLE
             for e in range(indptr[i], indptr[i + 1]):
-                top = max(top, best[goal[e]] - costs[e])
+                worth = best[goal[e]] - costs[e] + seam(t + k, e, seam_ptr, seam_at, seam_sign, beats)
+                top = max(top, worth)
             leap[i] = top
         for f in range(size):
             on = IMPOSSIBLE
@@ -171,8 +188,12 @@ def _values(table, values, first, rest, hold, indptr, goal, costs, base, left, e
 
 
 @njit(cache=True, boundscheck=False)
-def _branches(frame, table, values, rest, hold, indptr, goal, costs, base, left, entries, survival):
+def _branches(
+    t, frame, table, values,
+    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, beats,
+):  # fmt: skip
     horizon, rates = len(table), entries.shape[0]
+    rest = frames - t - horizon
     last = min(horizon, left[frame] + 1)
     count = 1
     for k in range(last):
@@ -183,11 +204,12 @@ def _branches(frame, table, values, rest, hold, indptr, goal, costs, base, left,
     for k in range(last):
         i = base[frame + k]
         for e in range(indptr[i], indptr[i + 1]):
+            gain = seam(t + k, e, seam_ptr, seam_at, seam_sign, beats) - costs[e]
             for r in range(rates):
                 g = entries[r, goal[e]]
                 if g < 0:
                     continue
-                worth = before - costs[e] + _landing(values, k, g, hold, rest, survival)
+                worth = before + gain + _landing(values, k, g, hold, rest, survival)
                 for n in range(min(hold, horizon - k)):
                     worth += table[k + n, g + n]
                 if worth > 0.5 * IMPOSSIBLE:

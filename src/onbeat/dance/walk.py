@@ -49,7 +49,7 @@ def _joins_after(problem: Problem, roads: Roads, t: int, frame: int, wish: int) 
     longest = min(left, total - t - 1)
     later, sooner = range(wish, longest + 1), range(min(wish - 1, longest), -1, -1)
     for wait in (*later, *(() if lasts else sooner)):
-        goals, _ = joins_from(problem, frame + wait)
+        goals, _ = joins_from(problem, frame + wait, t + wait)
         goals = goals[roads.survival[np.minimum(goals + hold, len(roads) - 1)] >= total - t - wait - hold]
         if len(goals):
             return wait, goals

@@ -1,0 +1,190 @@
+"""The search of Shiratori et al. 2006, Sec. V: three seconds ahead, first by rhythm, then by intensity.
+
+From where the dance is, all paths over the next T seconds are compared by how their stops meet the beats,
+
+    MatchEval_beat(t, path) = Σ_τ MC_stop(t + τ; path) · ASC_beat(t + τ)                            (Eq. 11)
+
+and of the best few of these the one is danced that fits the song's intensity best,
+
+    arg max_path  Σ_τ MC_intensity(t + τ; path) · ASC_intensity(t + τ)                              (Eq. 12)
+
+up to and over its first branch, where the next T seconds are looked at. Read so: the best few paths are those of
+different first branches, each with its best completion; completions alike in Eq. 11 are told apart by Eq. 12. ASC_beat
+is the degree of chord change at each beat (Eq. 6), so that a beat without any counts for nothing; a song without any
+chord change at all has beats of degree 1. Motion plays at its own rate, joins cost nothing, nothing forbids repeats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from onbeat._shapes import Array, Ints
+from onbeat.dance.greedy import HORIZON, follow
+from onbeat.dance.lookahead import IMPOSSIBLE, Branches, Roads
+from onbeat.dance.optimal import Path, Problem, score_path
+from onbeat.dance.score import PHRASE
+from onbeat.errors import PlanError
+from onbeat.motion.body import Body
+from onbeat.motion.features import hand_features, keyframe_component
+from onbeat.moves.graph import GRID
+from onbeat.moves.library import MoveLibrary
+from onbeat.music.song import Song
+
+BEST_PATHS = 16
+"""How many of the best paths by Eq. 11 are compared by Eq. 12 ("several" in the paper)."""
+TIE = 1e-6
+"""What Eq. 12 counts beside Eq. 11 where completions of one branch are alike."""
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """The four components that Eqs. 11 and 12 correlate.
+
+    Parameters
+    ----------
+    stop, motion : (N,) MC_stop (Eq. 1) and MC_intensity (Eq. 2, m/s) of each frame of the motion graph.
+    beat, music : (T,) ASC_beat (Eq. 6) and ASC_intensity (Eq. 7) of each song frame.
+    """
+
+    stop: Array
+    motion: Array
+    beat: Array
+    music: Array
+
+    def rhythm(self, t: int, ahead: int) -> Array:
+        """(H, N) terms of Eq. 11 for ``ahead`` song frames from t on, or to the song's end."""
+        return self.beat[t : t + ahead, None] * self.stop
+
+    def intensity(self, t: int, ahead: int) -> Array:
+        """(H, N) terms of Eq. 12."""
+        return self.music[t : t + ahead, None] * self.motion
+
+
+def components(library: MoveLibrary, song: Song, frames: int) -> Components:
+    """Read the components off a library and a song of ``frames`` song frames."""
+    stop = [
+        keyframe_component(hand_features(clip.motion, body).stops, np.arange(len(clip.poses)) / GRID)
+        for clip in library.clips
+        for body in (Body.of(clip.motion.skeleton),)
+    ]
+    degree = song.chord_change if np.any(song.chord_change > 0) else np.ones(len(song.beats))
+    beat = np.zeros(frames)
+    np.maximum.at(beat, np.clip(np.round(song.beats * GRID).astype(np.int64), 0, frames - 1), degree)
+    music = song.intensity_at((np.arange(frames) + 0.5) / GRID)
+    return Components(
+        np.concatenate(stop), library.intensity, beat, gaussian_filter1d(music, PHRASE * GRID, mode="nearest")
+    )
+
+
+def shiratori2006_path(
+    problem: Problem, library: MoveLibrary, song: Song, *, rhythm_only: bool = False, horizon_s: float = HORIZON
+) -> Path:
+    """The paper's dance, scored by ``problem`` so that it can be held against the others.
+
+    Parameters
+    ----------
+    problem : of ``library`` and ``song``; its objective is not looked at, only its frames and joins.
+    rhythm_only : leave Eq. 12 out, as in the paper's Fig. 8, bottom.
+    horizon_s : T, seconds looked ahead.
+
+    Raises
+    ------
+    PlanError
+        If no dance over the joins is as long as the song, or the problem has no rate of 1.
+    """
+    roads, shown = _own_rate(problem)
+    parts = components(library, song, roads.frames)
+    if rhythm_only:
+        parts = replace(parts, motion=np.zeros(len(parts.motion)))
+    ahead = max(round(horizon_s * GRID), 1)
+    frame = _begin(roads, parts, ahead)
+    t, times, entries = 0, [0], [frame]
+    while t < roads.frames:
+        found, chosen = _chosen(roads, parts, frame, t, ahead)
+        t, frame = follow(roads, found, chosen, t, frame, times, entries)
+    laid = shown[np.array(entries)]
+    return Path(np.array(times), laid, score_path(problem, times, laid))
+
+
+def _own_rate(problem: Problem) -> tuple[Roads, Ints]:
+    """The graph's own frames as roads without costs, and the virtual frame of each at rate 1."""
+    laid, graph = problem.frames, problem.graph
+    rates = np.flatnonzero(np.abs(laid.rate[laid.entry[:, 0]] - 1.0) < 1e-9)
+    if not len(rates):
+        raise PlanError("the search of 2006 plays motion at its own rate; the problem has no rate of 1")
+    shown = laid.entry[rates[0]]
+    nodes, goals = np.arange(len(graph)), problem.goals[0]
+    left = laid.left[shown]
+    entries = np.where(left[goals] > problem.hold, goals, -1)[None]
+    roads = replace(
+        Roads.of(problem),
+        base=nodes,
+        left=left,
+        costs=np.zeros(graph.join_count),
+        entries=entries,
+        seams=(np.zeros(graph.join_count + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32)),
+    )
+    return roads, shown
+
+
+def _begin(roads: Roads, parts: Components, ahead: int) -> int:
+    """The frame to begin with: the ``BEST_PATHS`` best by Eq. 11, of these the best by Eq. 12."""
+    rhythm, intensity = parts.rhythm(0, ahead), parts.intensity(0, ahead)
+    table = rhythm + TIE * intensity
+    values = roads.values(0, table)
+    best = np.argsort(-values[0], kind="stable")[:BEST_PATHS]
+    best = best[values[0, best] > 0.5 * IMPOSSIBLE]
+    sums = [_along(roads, (table, intensity, values), 0, int(f), 0) for f in best]
+    return int(best[int(np.argmax(sums))])
+
+
+def _chosen(roads: Roads, parts: Components, frame: int, t: int, ahead: int) -> tuple[Branches, int]:
+    """The branches from ``frame`` and which of them is danced."""
+    rhythm, intensity = parts.rhythm(t, ahead), parts.intensity(t, ahead)
+    table = rhythm + TIE * intensity
+    values = roads.values(t, table, roads.hold)
+    found = roads.branches(t, frame, table, values)
+    best = np.argsort(-found.value, kind="stable")[:BEST_PATHS]
+    before = np.concatenate(([0.0], np.cumsum(_diagonal(intensity, 0, frame, roads.left[frame] + 1))))
+    sums = [
+        before[wait] + (_entered(roads, (table, intensity, values), t, entry, wait) if entry >= 0 else 0.0)
+        for wait, entry in zip(found.wait[best].tolist(), found.entry[best].tolist(), strict=True)
+    ]
+    return found, int(best[int(np.argmax(sums))])
+
+
+def _diagonal(table: Array, k: int, frame: int, most: int) -> Array:
+    """Terms of a run through one clip from row k and ``frame`` on, at most ``most`` of them, within the horizon."""
+    steps = np.arange(min(most, len(table) - k))
+    return table[k + steps, frame + steps]
+
+
+def _entered(roads: Roads, tables: tuple[Array, Array, Array], t: int, entry: int, k: int) -> float:
+    """Eq. 12 from a join at row k to ``entry`` on, along the best completion by Eq. 11."""
+    held = float(_diagonal(tables[1], k, entry, roads.hold).sum())
+    if k + roads.hold >= len(tables[0]):
+        return held
+    return held + _along(roads, tables, t, entry + roads.hold, k + roads.hold)
+
+
+def _along(roads: Roads, tables: tuple[Array, Array, Array], t: int, frame: int, k: int) -> float:
+    """Eq. 12 from ``frame`` at row k on, along the best completion by Eq. 11.
+
+    ``tables`` are Eq. 11's terms, Eq. 12's, and the values to the horizon; row 0 is song frame t.
+    """
+    table, intensity, values = tables
+    total = 0.0
+    while k < len(table):
+        found = roads.branches(t + k, frame, table[k:], values[k:])
+        best = int(np.argmax(found.value))
+        wait, entry = int(found.wait[best]), int(found.entry[best])
+        total += float(_diagonal(intensity, k, frame, wait).sum())
+        k += wait
+        if entry < 0:
+            break
+        total += float(_diagonal(intensity, k, entry, roads.hold).sum())
+        k, frame = k + roads.hold, entry + roads.hold
+    return total
