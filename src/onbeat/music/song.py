@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import msgspec
 import numpy as np
@@ -12,28 +13,32 @@ from onbeat.errors import AudioError
 
 VERSION = 1
 
+Said = msgspec.Meta
+
 
 class IntensityDocument(msgspec.Struct, frozen=True):
-    """Intensity over time: seconds and values 0…1."""
+    """Intensity over time."""
 
-    times: list[float]
-    values: list[float]
+    times: Annotated[list[float], Said(description="seconds")]
+    values: Annotated[list[float], Said(description="0…1, one for each time")]
 
 
-class SongDocument(msgspec.Struct, frozen=True, forbid_unknown_fields=False):
-    """``song.json``: times in seconds from the song's start."""
+class SongDocument(msgspec.Struct, frozen=True):
+    """``song.json``: what is heard in a song; times in seconds from its start."""
 
-    version: int
-    duration: float
-    tempo: float
-    meter: int
-    beats: list[float]
-    downbeats: list[float]
-    chord_change: list[float]
-    intensity: IntensityDocument
-    method: str = ""
-    title: str = ""
-    beat_strength: list[float] = msgspec.field(default_factory=list[float])
+    version: Annotated[int, Said(description="of this document; others are refused")]
+    duration: Annotated[float, Said(description="seconds")]
+    tempo: Annotated[float, Said(description="beats a minute, from a line through the beats; 0 without beats")]
+    meter: Annotated[int, Said(description="beats in a bar")]
+    beats: Annotated[list[float], Said(description="seconds")]
+    downbeats: Annotated[list[float], Said(description="seconds, a subset of the beats")]
+    chord_change: Annotated[list[float], Said(description="0…1 for each beat: how much the harmony changes there")]
+    intensity: Annotated[IntensityDocument, Said(description="how intense the music is")]
+    method: Annotated[str, Said(description="which method heard it")] = ""
+    title: Annotated[str, Said(description="the song's name, for people")] = ""
+    beat_strength: Annotated[list[float], Said(description="0…1 for each beat: its accent; 1 where it is left out")] = (
+        msgspec.field(default_factory=list[float])
+    )
 
 
 def _frozen(values: object) -> Array:

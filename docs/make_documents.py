@@ -1,0 +1,79 @@
+"""Writes ``docs/documents.md`` from the documents' own types: ``python docs/make_documents.py``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import msgspec
+
+from onbeat.dance.document import DanceDocument
+from onbeat.music.song import SongDocument
+
+PAGE = Path(__file__).parent / "documents.md"
+
+HEAD = """# Documents
+
+Everything onbeat says about a song or a dance beside sound and motion is a JSON document. Times are seconds. A document
+carries its version; an onbeat that does not know that version says so and stops. Fields may be added within a version:
+readers pass over fields they do not know.
+
+This page is written by `python docs/make_documents.py` from the types that read and write the documents; a test
+holds them together.
+"""
+
+
+class Document(NamedTuple):
+    """A document by the name of its file, the type that reads it, and who writes it."""
+
+    name: str
+    type: type
+    about: str
+
+
+DOCUMENTS = (
+    Document(
+        "song.json", SongDocument, "Written by `onbeat listen SONG -o song.json` and, as danced to, by `onbeat dance`."
+    ),
+    Document("dance.json", DanceDocument, "Written by `onbeat dance` beside the motion."),
+)
+
+
+def page() -> str:
+    """The whole page as Markdown."""
+    return "\n".join([HEAD, *(section(document) for document in DOCUMENTS)])
+
+
+def section(document: Document) -> str:
+    """One document: its fields as tables, its own first, and its JSON schema."""
+    schema = msgspec.json.schema(document.type)
+    parts = {name: found for name, found in schema["$defs"].items() if name != document.type.__name__}
+    tables = [table(schema["$defs"][document.type.__name__])]
+    tables += [f"`{name}`: {table(found)}" for name, found in parts.items()]
+    pretty = msgspec.json.format(msgspec.json.encode(schema), indent=2).decode()
+    head = f"## {document.name}\n\n{document.about}\n\n"
+    return head + "\n".join(tables) + f"\nAs JSON schema:\n\n```json\n{pretty}\n```\n"
+
+
+def table(schema: dict[str, Any]) -> str:
+    """The fields of one type."""
+    required = schema.get("required", [])
+    rows = ["| field | type | what |", "|---|---|---|"]
+    for field, found in schema["properties"].items():
+        optional = "" if field in required else "; may be left out"
+        rows.append(f"| `{field}` | {kind(found)} | {found['description']}{optional} |")
+    return schema["description"].replace("``", "`") + "\n\n" + "\n".join(rows) + "\n"
+
+
+def kind(schema: dict[str, Any]) -> str:
+    """A type in words."""
+    if "$ref" in schema or "allOf" in schema or "anyOf" in schema:
+        ref = schema.get("$ref") or (schema.get("allOf") or schema["anyOf"])[0]["$ref"]
+        return f"`{ref.rsplit('/', 1)[-1]}`"
+    if schema["type"] == "array":
+        return f"list of {kind(schema['items'])}"
+    return {"object": "object", "integer": "whole number", "number": "number", "string": "text"}[schema["type"]]
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,63 @@
+"""``dance.json``: how a dance was put together and how good it is."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import msgspec
+
+from onbeat.errors import PlanError
+
+VERSION = 1
+
+Said = msgspec.Meta
+
+
+class MoveDocument(msgspec.Struct, frozen=True):
+    """One stretch of one clip; a join lies at the beginning of every move but the first."""
+
+    clip: Annotated[str, Said(description="name of the clip in the library")]
+    from_s: Annotated[float, Said(description="second of the clip at which it is entered")]
+    to_s: Annotated[float, Said(description="second of the clip at which it is left")]
+    at_s: Annotated[float, Said(description="second of the dance at which the move begins")]
+
+
+class DanceDocument(msgspec.Struct, frozen=True):
+    """``dance.json``: times in seconds on the clock of the dance, which begins with the song."""
+
+    version: Annotated[int, Said(description="of this document; others are refused")]
+    fps: Annotated[float, Said(description="frames a second of dance.bvh and dance.glb")]
+    duration: Annotated[float, Said(description="seconds, those of the song")]
+    seed: Annotated[int, Said(description="that of `--seed`")]
+    method: Annotated[str, Said(description="the method of the search")]
+    beats: Annotated[list[float], Said(description="seconds of the beats danced to")]
+    stops: Annotated[list[float], Said(description="seconds at which a hand comes to rest")]
+    moves: Annotated[list[MoveDocument], Said(description="in order, without gaps")]
+    metrics: Annotated[dict[str, Any], Said(description="names and values as `onbeat evaluate --json` gives them")]
+    title: Annotated[str, Said(description="the song's name")] = ""
+
+    def to_json(self) -> bytes:
+        """The document as JSON bytes."""
+        return msgspec.json.format(msgspec.json.encode(self), indent=1) + b"\n"
+
+    @classmethod
+    def from_json(cls, data: bytes, source: str = "dance.json") -> DanceDocument:
+        """Read a document; a ``PlanError`` says what is wrong with it.
+
+        Examples
+        --------
+        >>> DanceDocument.from_json(b'{"version": 9}')
+        Traceback (most recent call last):
+        onbeat.errors.PlanError: dance.json: version 9; this onbeat reads version 1
+        """
+        try:
+            found = msgspec.json.decode(data, type=_Version).version
+            if found != VERSION:
+                raise PlanError(f"{source}: version {found}; this onbeat reads version {VERSION}")
+            return msgspec.json.decode(data, type=cls)
+        except msgspec.DecodeError as error:
+            raise PlanError(f"{source}: not a dance document: {error}; write one with `onbeat dance`") from None
+
+
+class _Version(msgspec.Struct):
+    version: int
