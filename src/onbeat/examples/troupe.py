@@ -55,15 +55,23 @@ def dance_library(fps: float = 60.0, seed: int = 0, body: Build | None = LIBRARY
     (17, 5.3)
     """
     rng = np.random.default_rng(seed)
-    order = [FIGURES[i] for _ in range(4) for i in rng.permutation(len(FIGURES))]
     clips: list[Performance] = []
-    for number, first in enumerate(range(0, len(order), 4)):
+    for number, figures in enumerate(_programme(rng)):
         dancer = DANCERS[number % len(DANCERS)]
         if body is not None:
             dancer = replace(dancer, build=body)
         speed = LIBRARY_SPEEDS[number % len(LIBRARY_SPEEDS)]
-        clips.append(perform(dancer, _filled(order[first : first + 4]), speed, 1, rng, fps))
+        clips.append(perform(dancer, _filled(figures), speed, 1, rng, fps))
     return clips
+
+
+def _programme(rng: np.random.Generator) -> list[list[Figure]]:
+    """All figures four times in mixed order, four to a clip and none twice in one."""
+    while True:
+        order = [FIGURES[i] for _ in range(4) for i in rng.permutation(len(FIGURES))]
+        clips = [order[first : first + 4] for first in range(0, len(order), 4)]
+        if all(len({figure.name for figure in clip}) == 4 for clip in clips):
+            return clips
 
 
 def _filled(figures: Sequence[Figure]) -> list[Figure]:
