@@ -1,8 +1,45 @@
 """onbeat puts motion on the beat: motion capture and a song in, a dance on the music out."""
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from onbeat.errors import OnbeatError
 from onbeat.motion import Body, Motion, Skeleton
-from onbeat.music import Song
+from onbeat.music import Song, listen
 
-__all__ = ["Body", "Motion", "OnbeatError", "Skeleton", "Song", "__version__"]
+if TYPE_CHECKING:
+    from onbeat.formats import read_motion, write_motion
+    from onbeat.moves.library import MoveLibrary
+
+__all__ = [
+    "Body",
+    "Motion",
+    "MoveLibrary",
+    "OnbeatError",
+    "Skeleton",
+    "Song",
+    "__version__",
+    "listen",
+    "read_motion",
+    "write_motion",
+]
 __version__ = "0.1.0"
+
+_ON_DEMAND = {
+    "MoveLibrary": "onbeat.moves.library",
+    "read_motion": "onbeat.formats",
+    "write_motion": "onbeat.formats",
+}
+"""Imported when first asked for, so that ``import onbeat`` stays quick."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _ON_DEMAND:
+        raise AttributeError(f"module 'onbeat' has no attribute {name!r}")
+    return getattr(import_module(_ON_DEMAND[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
