@@ -13,6 +13,7 @@ app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc_
 app.command("onbeat.cli.listen:listen_command", name="listen", help="Hear the beats and chords of a song.")
 app.command("onbeat.cli.evaluate:evaluate_command", name="evaluate")
 app.command("onbeat.cli.convert:convert_command", name="convert")
+app.command("onbeat.cli.moves:moves_app", name="moves", help="Build and show motion libraries.")
 
 
 def main() -> None:

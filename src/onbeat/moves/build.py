@@ -10,7 +10,6 @@ import numpy as np
 
 from onbeat._shapes import Ints
 from onbeat.errors import BodyError, LibraryError
-from onbeat.files import make_folder
 from onbeat.moves import manifest as documents
 from onbeat.moves import store
 from onbeat.moves.clips import Read, Stage, main_body, read_recording, renamed
@@ -54,9 +53,7 @@ def build_library(
     LibraryError
         If no file is good, another builder is at work in the folder, or it cannot be written.
     """
-    return build_recordings(
-        find_recordings(paths, fps), folder, mirror=mirror, fps=fps, step=step, workers=workers
-    )
+    return build_recordings(find_recordings(paths, fps), folder, mirror=mirror, fps=fps, step=step, workers=workers)
 
 
 def build_recordings(
@@ -69,11 +66,12 @@ def build_recordings(
     workers: int = 2,
 ) -> MoveLibrary:
     """As :func:`build_library`, of recordings that were found already."""
-    folder = make_folder(folder)
+    if (ready := _current(folder, recordings, mirror=mirror, fps=fps)) is not None:
+        return ready  # in a folder that only others may write, too
     with building(folder):
+        if (ready := _current(folder, recordings, mirror=mirror, fps=fps)) is not None:
+            return ready
         old = Old.of(folder, fps)
-        if old.found is not None and is_current(old.found, recordings, mirror=mirror, fps=fps):
-            return store.library_from(old.found, old.arrays)
         found, arrays = Build(mirror, fps, workers, step or _silent, old).of(recordings)
         store.write_library(folder, found, arrays)
         return store.library_from(found, arrays)
@@ -91,8 +89,17 @@ def assemble(
     return store.library_from(*Build(mirror, fps, workers, step or _silent, Old()).of(recordings))
 
 
+def _current(folder: Path, recordings: Sequence[Recording], *, mirror: bool, fps: float | None) -> MoveLibrary | None:
+    """The library of a folder if it is what a build of these recordings would give."""
+    try:
+        found, arrays = store.read_stored(folder)
+    except LibraryError:
+        return None
+    return store.library_from(found, arrays) if is_current(found, recordings, mirror=mirror, fps=fps) else None
+
+
 def is_current(found: Manifest, recordings: Sequence[Recording], *, mirror: bool, fps: float | None) -> bool:
-    """Whether a library is what a build of these recordings would give."""
+    """Whether a manifest is what a build of these recordings would give."""
     options = (found.method, found.mirror, found.fps) == (documents.method_digest(), mirror, fps)
     out = {(problem.file, problem.sha256) for problem in found.problems}
     kept = [(row.file, row.sha256, row.name) for row in found.clips if not row.mirrored]

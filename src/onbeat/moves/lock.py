@@ -13,28 +13,33 @@ from onbeat.errors import LibraryError
 LOCK = ".lock"
 
 
+class StorageError(LibraryError):
+    """A folder in which no library can be kept now: it cannot be written, or another builder is at work there."""
+
+
 @contextmanager
 def building(folder: Path) -> Generator[None, None, None]:
-    """Hold the lock of a library's folder.
+    """Make a library's folder and hold its lock.
 
     The operating system drops the lock when its process ends, however it ends, so no stale lock is ever left; the file
     stays and holds the number of the last process for the message.
 
     Raises
     ------
-    LibraryError
-        If another builder holds it, or the folder cannot be written.
+    StorageError
+        If another builder holds it, or the folder cannot be made or written.
     """
     try:
+        folder.mkdir(parents=True, exist_ok=True)
         handle = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as error:
-        raise LibraryError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
+        raise StorageError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
     try:
         try:
             _lock(handle)
         except OSError:
             holder = os.read(handle, 20).decode(errors="replace").strip() or "another"
-            raise LibraryError(
+            raise StorageError(
                 f"{folder} is being built by process {holder}; wait until it is done, or choose another folder"
             ) from None
         os.ftruncate(handle, 0)

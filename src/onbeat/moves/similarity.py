@@ -92,7 +92,7 @@ def close_pairs(
     >>> x = np.array([[0.0], [5.0], [9.0]], np.float32)
     >>> y = np.array([[7.0], [4.8], [2.0]], np.float32)
     >>> i, j, d = close_pairs(x, y, limit=1.0, reach=1)
-    >>> i.tolist(), j.tolist(), d.round(2).tolist()
+    >>> i.tolist(), j.tolist(), [round(float(one), 2) for one in d]
     ([1], [1], [0.2])
     """
     same = a is b

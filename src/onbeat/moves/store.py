@@ -19,12 +19,13 @@ from typing import Any
 import numpy as np
 
 from onbeat._shapes import Float32, Ints
-from onbeat.errors import FormatError, LibraryError
+from onbeat.errors import FormatError, LibraryError, OnbeatError
 from onbeat.files import write_atomically
 from onbeat.motion.motion import Motion
 from onbeat.moves import manifest as documents
 from onbeat.moves.graph import MotionGraph
 from onbeat.moves.library import Clip, MoveLibrary
+from onbeat.moves.lock import StorageError
 from onbeat.moves.manifest import Manifest
 
 MANIFEST = "library.json"
@@ -199,9 +200,11 @@ def write_library(folder: Path, found: Manifest, arrays: Arrays) -> None:
     try:
         if not _is_there(folder, found):
             _write_arrays(folder / found.data, arrays)
+        write_atomically(folder / MANIFEST, documents.encode(found))
     except OSError as error:
-        raise LibraryError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
-    write_atomically(folder / MANIFEST, documents.encode(found))
+        raise StorageError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
+    except OnbeatError as error:
+        raise StorageError(str(error)) from None
     for old in folder.iterdir():
         stale = old.name.startswith((_DATA, f".{_DATA}")) and old.name != found.data
         if stale and old.is_dir() and not old.is_symlink():
