@@ -40,6 +40,16 @@ def test_fast_songs_are_halved_on_their_downbeats(first: int) -> None:
     assert len(folded.chord_change) == len(folded.beat_strength) == len(folded.beats)
 
 
+def test_a_bar_with_a_beat_too_many_keeps_downbeats_and_distance() -> None:
+    beats = 0.3 * np.arange(41)
+    downbeats = beats[[0, 4, 8, 12, 17, 21, 25, 29, 33, 37]]
+    folded = danceable_beats(Song(13.0, 200.0, 4, beats, downbeats, np.zeros(41), [0.0], [0.5]))
+    assert set(folded.downbeats) == set(downbeats)
+    gaps = np.diff(folded.beats) / 0.3
+    assert sorted(set(np.round(gaps).tolist())) == [2.0, 3.0]
+    assert (np.round(gaps) == 3.0).sum() == 1
+
+
 def test_slow_songs_are_doubled_with_the_old_beats_kept() -> None:
     song = steady(60.0)
     folded = danceable_beats(song)

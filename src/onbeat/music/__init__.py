@@ -2,5 +2,6 @@
 
 from onbeat.music.listen import METHODS, listen, listen_samples
 from onbeat.music.song import Song
+from onbeat.music.tempo import danceable_beats
 
-__all__ = ["METHODS", "Song", "listen", "listen_samples"]
+__all__ = ["METHODS", "Song", "danceable_beats", "listen", "listen_samples"]

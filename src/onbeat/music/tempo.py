@@ -66,8 +66,8 @@ def tempo_of(beats: Times) -> float:
 def danceable_beats(song: Song, slowest: float = DANCE_SLOWEST, fastest: float = DANCE_FASTEST) -> Song:
     """The song with its beats folded to a tempo one dances to: halved above ``fastest``, doubled below ``slowest``.
 
-    Halving keeps the half of the beats with more downbeats (and, between equals, more chord change); the meter is
-    halved where it is even and kept where it is odd (a waltz at 180 is danced one step in two beats, across bars).
+    Halving keeps every downbeat of an even meter, which is halved too. An odd meter is kept, of its beats the half with
+    more downbeats: a waltz at 180 is danced one step in two beats, across its bars.
     Doubling puts a beat without chord change between each two.
 
     >>> song = Song(4.0, 200.0, 4, np.arange(12) * 0.3, np.arange(0, 12, 4) * 0.3, np.ones(12), [0, 4], [1, 1])
@@ -81,22 +81,34 @@ def danceable_beats(song: Song, slowest: float = DANCE_SLOWEST, fastest: float =
     return song
 
 
+def _every_other(song: Song) -> Ints:
+    """Indices of half of the beats: in even meters counted anew from each downbeat, in odd ones right through.
+
+    The last beat of a bar with one beat too many is left out, so that no two kept beats follow each other directly.
+    """
+    index = np.arange(len(song.beats))
+    starts = np.flatnonzero(np.isin(song.beats, song.downbeats))
+    if song.meter % 2 or not len(starts):
+        weight = np.isin(index, starts) + 1e-3 * song.chord_change
+        return index[int(weight[1::2].sum() > weight[0::2].sum()) :: 2]
+    bar = np.searchsorted(starts, index, side="right") - 1
+    even = (index - starts[np.maximum(bar, 0)]) % 2 == 0
+    following = np.append(starts, len(index) + 1)[bar + 1]
+    return index[even & (following - index >= 2)]
+
+
 def _halved(song: Song) -> Song:
-    is_downbeat = np.isin(song.beats, song.downbeats)
-    weight = is_downbeat + 1e-3 * song.chord_change
-    first = int(weight[1::2].sum() > weight[0::2].sum())
-    kept = song.beats[first::2]
-    merged = song.chord_change[first::2].copy()
-    skipped = song.chord_change[first + 1 :: 2]
-    merged[: len(skipped)] = np.maximum(merged[: len(skipped)], skipped)
+    kept = _every_other(song)
+    ends = np.append(kept[1:], len(song.beats))
+    change = np.array([song.chord_change[begin:end].max() for begin, end in zip(kept, ends, strict=True)])
     return replace(
         song,
         tempo=song.tempo / 2.0,
         meter=song.meter // 2 if song.meter % 2 == 0 else song.meter,
-        beats=kept,
-        downbeats=song.downbeats[np.isin(song.downbeats, kept)],
-        chord_change=merged,
-        beat_strength=song.beat_strength[first::2],
+        beats=song.beats[kept],
+        downbeats=song.downbeats[np.isin(song.downbeats, song.beats[kept])],
+        chord_change=change,
+        beat_strength=song.beat_strength[kept],
     )
 
 
