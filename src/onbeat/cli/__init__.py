@@ -9,11 +9,33 @@ import cyclopts
 import onbeat
 
 app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__)
-# Named by path, so that a command is imported when it is called.
-app.command("onbeat.cli.listen:listen_command", name="listen", help="Hear the beats and chords of a song.")
-app.command("onbeat.cli.evaluate:evaluate_command", name="evaluate")
-app.command("onbeat.cli.convert:convert_command", name="convert")
-app.command("onbeat.cli.moves:moves_app", name="moves", help="Build and show motion libraries.")
+# Named by path, so that a command is imported when it is called; its help stands here, so that a list needs none.
+COMMANDS = {
+    "listen": (
+        "onbeat.cli.listen:listen_command",
+        "Hear the beats, downbeats, chord changes and intensity of a song.",
+        "onbeat listen song.mp3 -o song.json --click song_clicks.wav --plot song.png",
+    ),
+    "moves": (
+        "onbeat.cli.moves:moves_app",
+        "Build and show motion libraries: clips and the joins between them.",
+        "onbeat moves build my_clips -o my_library",
+    ),
+    "evaluate": (
+        "onbeat.cli.evaluate:evaluate_command",
+        "Measure how well a motion dances to a song: on the beat, with its intensity, on its feet, smoothly.",
+        "onbeat evaluate dance.bvh --music song.wav",
+    ),
+    "convert": (
+        "onbeat.cli.convert:convert_command",
+        "Convert a motion file: BVH, ASF/AMC or npz in, BVH, GLB or npz out.",
+        "onbeat convert 05_01.amc dance.glb --source-fps 120",
+    ),
+}
+"""Of each command: where it is, what it does in a sentence, and an example."""
+
+for order, (name, (path, sentence, example)) in enumerate(COMMANDS.items()):
+    app.command(path, name=name, help=f"{sentence}\n\nExample: ``{example}``", sort_key=order)
 
 
 def main() -> None:

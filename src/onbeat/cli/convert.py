@@ -32,10 +32,7 @@ def convert_command(
     like: Annotated[Path | None, cyclopts.Parameter(help="Move it over to the skeleton of this motion file.")] = None,
     mirror: Annotated[bool, cyclopts.Parameter(negative="", help="Left becomes right.")] = False,
 ) -> None:
-    """Convert a motion file: BVH, ASF/AMC or npz in, BVH, GLB or npz out.
-
-    Example: onbeat convert 05_01.amc dance.glb --source-fps 120
-    """
+    """Convert a motion file: BVH, ASF/AMC or npz in, BVH, GLB or npz out."""
     for rate in (fps, source_fps):
         if rate is not None and not 0.1 <= rate <= 10000:
             raise FormatError(f"{rate} frames a second cannot be; give a rate from 0.1 to 10000")

@@ -129,11 +129,6 @@ def evaluate_command(
 ) -> None:
     """Measure how well a motion dances to a song: on the beat, with its intensity, on its feet, smoothly.
 
-    Chance is what the same stops score on beats moved by up to half an interval (F), or moved as a whole by any time
-    (beat-align); z is how many standard deviations the score is above it.
-
-    Example: ``onbeat evaluate dance.bvh --music song.wav``
-
     Parameters
     ----------
     motion
@@ -145,7 +140,8 @@ def evaluate_command(
     fps
         Frames per second, where the motion file stores none.
     seed
-        Draws the chance levels.
+        Draws the chance levels: what the same stops score on beats moved by up to half an interval (F), or moved as a
+        whole by any time (beat-align); z is how many standard deviations a score is above its chance.
     json
         Print everything as JSON on stdout instead of a table.
     """

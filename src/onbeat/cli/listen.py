@@ -85,8 +85,6 @@ def listen_command(
 ) -> None:
     """Hear the beats, downbeats, chord changes and intensity of a song.
 
-    Example: ``onbeat listen song.mp3 -o song.json --click song_clicks.wav --plot song.png``
-
     Parameters
     ----------
     song
