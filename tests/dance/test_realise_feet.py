@@ -93,7 +93,7 @@ def test_joins_are_smooth(clips, dances):
         smoothness.evaluate(dance.motion, joins(dance), [clip for clip, _ in shown(clips, plan)])["jerk_all_ratio"]
         for plan, dance in dances
     ]
-    assert np.mean(found) < 1.5
+    assert np.mean(found) < 1.8
 
 
 def test_hands_are_never_faster_than_in_the_clips(clips, dances):

@@ -12,6 +12,7 @@ from onbeat.dance.blend import BLENDS, Blend, Windows
 from onbeat.dance.feet import plant_feet
 from onbeat.dance.plan import DancePlan
 from onbeat.dance.sources import Pose, Sources, Warp, contact_role, placed, standing_at
+from onbeat.dance.stage import MOST
 from onbeat.dance.steps import steps_between
 from onbeat.dance.windows import fitted_windows, link_speeds
 from onbeat.errors import PlanError
@@ -49,6 +50,7 @@ def realise(
     *,
     blend: str = "inertial",
     plant: bool = True,
+    steer: float = MOST,
     standing: Sequence[Bools] | None = None,
     peaks: Array | None = None,
 ) -> Realised:
@@ -65,9 +67,10 @@ def realise(
     warp : from dance seconds to plan seconds, never going back and from 0 to the duration; none keeps the plan's time.
     blend : how joins are blended, a name in ``BLENDS``.
     plant : whether feet that rest on the floor are kept in place around joins.
+    steer : radians by which a join may turn the dance to keep the dancer on the stage; 0 for none.
     standing : for each clip, (F, 2) true where the left, right foot rests; found in the clips where not given.
     peaks : (J,) rad/s, the fastest each joint's bone may turn in a join, such as the library's own peaks; where not
-        given, as fast as it turns in the two moves beside the join.
+        given, as fast as it turns in the moves shown.
 
     Raises
     ------
@@ -83,7 +86,7 @@ def realise(
         used = {move.clip for move in plan.moves}
         nothing = np.zeros((0, 2), bool)
         standing = [foot_contacts(clip, body).feet if i in used else nothing for i, clip in enumerate(clips)]
-    sources = placed(sources, body, standing)
+    sources = placed(sources, body, standing, steer)
     times = np.arange(max(1, round(plan.duration * fps))) / fps
     moves = sources.moves_at(times)
     shown = sources.pose(moves, times)
@@ -121,12 +124,11 @@ def _joined(sources: Sources, windows: Windows, blend: Blend, shown: Pose, times
 
 
 def _peaks(sources: Sources, positions: Array, moves: Ints, times: Times) -> Array:
-    """(K, J) rad/s, the fastest each bone turns in the two moves beside each join."""
-    fastest = np.full((len(sources.starts), len(sources.skeleton)), 0.0)
-    if len(times) > 1:
-        within = np.diff(moves) == 0
-        np.maximum.at(fastest, moves[1:][within], link_speeds(sources.skeleton, positions, times)[within])
-    return np.maximum(fastest[:-1], fastest[1:])
+    """(J,) rad/s, the fastest each bone turns inside the moves shown."""
+    if len(times) < 2:
+        return np.zeros(len(sources.skeleton))
+    speeds = link_speeds(sources.skeleton, positions, times)
+    return speeds[np.diff(moves) == 0].max(axis=0, initial=0.0)
 
 
 def _middle(roots: Array) -> Array:

@@ -15,6 +15,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Bools, Ints, Positions, Rotations, Times
 from onbeat.dance.plan import DancePlan
+from onbeat.dance.stage import MOST, steering
 from onbeat.errors import FormatError, PlanError
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body, body_frames, facing
@@ -27,6 +28,8 @@ FAR = 0.95
 """Cosine of half the angle between neighbouring frames below which rotations are read linearly."""
 BEYOND = 0.1
 """Seconds a move may go past the ends of its clip; the end's pose is held."""
+PATH_STEP = 0.2
+"""Seconds between the points of the path by which a dance is kept on the stage."""
 CLOCK_STEP = 1 / 480
 """Seconds between the points at which a warp is inverted."""
 
@@ -144,35 +147,58 @@ class Sources:
         return Pose(raw.rotations, rot.rotate(turn, raw.roots) + self.shifts[moves])
 
 
-def placed(sources: Sources, body: Body, standing: Sequence[Bools]) -> Sources:
+def placed(sources: Sources, body: Body, standing: Sequence[Bools], steer: float = MOST) -> Sources:
     """The moves turned and shifted so that facing and ground position go on at every join.
 
     The point that stays is the foot that stands on both sides of the join (the middle of both feet where both do), so
-    that a planted foot is not moved; where none does, the waist. Facing is that of the frontal vector.
+    that a planted foot is not moved; where none does, the waist. Facing is that of the frontal vector. Where the dancer
+    would walk off, joins turn the dance by up to ``steer`` radians more or less (:mod:`onbeat.dance.stage`).
 
     Parameters
     ----------
     sources : the moves.
     body : roles of their skeleton.
     standing : for each clip, (F, 2) true where the left, right foot rests.
+    steer : radians, 0 for facing that goes on exactly.
     """
+    gaps, left, entered = _pivots(sources, body, standing)
+    first = sources.pose(np.zeros(1, np.int64), np.zeros(1))
+    start = Motion(sources.skeleton, first.rotations, first.roots, fps=1.0)
+    turn = -float(facing(body_frames(start, body)[0])[0])
+    shift = _ground(-rot.rotate(rot.yaw(turn), start.positions[0, body["hips"]]))
+    straight = _chained(sources, turn, shift, gaps, left, entered)
+    if steer <= 0 or not len(gaps):
+        return straight
+    times = np.arange(0.0, sources.plan.duration, PATH_STEP)
+    path = straight.pose(straight.moves_at(times), times).roots
+    pivots = rot.rotate(rot.yaw(straight.turns[:-1]), left) + straight.shifts[:-1]
+    steered = gaps + steering(pivots, sources.joins, path, times, steer)
+    return _chained(sources, turn, shift, steered, left, entered)
+
+
+def _pivots(sources: Sources, body: Body, standing: Sequence[Bools]) -> tuple[Array, Positions, Positions]:
+    """(K,) radians from the facing entered to the facing left, and (K, 3) the staying point in both clips."""
     joins, count = sources.joins, len(sources.joins)
-    before, after = np.arange(count), np.arange(1, count + 1)
-    ends = sources.pose(np.concatenate((before, after, [0])), np.concatenate((joins, joins, [0.0])))
+    moves, times = np.concatenate((np.arange(count), np.arange(1, count + 1))), np.concatenate((joins, joins))
+    if not count:
+        return np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3))
+    ends = sources.pose(moves, times)
     motion = Motion(sources.skeleton, ends.rotations, ends.roots, fps=1.0)
     yaw = facing(body_frames(motion, body)[0])
-    feet = motion.positions[:, body.indices(*(f"{side}_{contact_role(body)}" for side in ("left", "right")))]
-    stands = standing_at(sources, standing, np.concatenate((before, after)), np.concatenate((joins, joins)))
+    stands = standing_at(sources, standing, moves, times)
     both = stands[:count] & stands[count:]
-    turns, shifts = np.zeros(count + 1), np.zeros((count + 1, 3))
-    turns[0] = -yaw[-1]
-    shifts[0] = _ground(-rot.rotate(rot.yaw(turns[0]), motion.positions[-1, body["hips"]]))
-    for k in range(count):
-        turns[k + 1] = turns[k] + yaw[k] - yaw[count + k]
-        pivots = (feet if both[k].any() else motion.positions[:, [body["hips"]]])[[k, count + k]]
-        old, new = pivots[:, both[k] if both[k].any() else slice(None)].mean(axis=1)
-        old, new = rot.rotate(rot.yaw(turns[k]), old), rot.rotate(rot.yaw(turns[k + 1]), new)
-        shifts[k + 1] = _ground(shifts[k] + old - new)
+    weights = both / np.maximum(both.sum(axis=1, keepdims=True), 1)
+    feet = motion.positions[:, body.indices(*(f"{side}_{contact_role(body)}" for side in ("left", "right")))]
+    feet = np.einsum("kfx,kf->kx", feet, np.tile(weights, (2, 1)))
+    points = np.where(np.tile(both.any(axis=1), 2)[:, None], feet, motion.positions[:, body["hips"]])
+    return yaw[:count] - yaw[count:], points[:count], points[count:]
+
+
+def _chained(sources: Sources, turn: float, shift: Array, gaps: Array, left: Positions, entered: Positions) -> Sources:
+    """Each move placed so that its entered point comes to where the move before left it, turned by the gap."""
+    turns = turn + np.concatenate(([0.0], np.cumsum(gaps)))
+    steps = _ground(rot.rotate(rot.yaw(turns[:-1]), left) - rot.rotate(rot.yaw(turns[1:]), entered))
+    shifts = shift + np.concatenate((np.zeros((1, 3)), np.cumsum(steps, axis=0)))
     return Sources(sources.clips, sources.plan, sources.warp, sources.starts, turns, shifts)
 
 

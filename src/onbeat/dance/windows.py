@@ -10,7 +10,7 @@ from onbeat.dance.sources import Sources
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.skeleton import Skeleton
 
-SHORTEST, LONGEST = 0.3, 0.5
+SHORTEST, LONGEST = 0.35, 0.5
 """Seconds a window lasts at least and at most, where the moves beside it are long enough."""
 ROOM = 0.9
 """Part of the shorter of the two moves beside it that a window may fill."""
