@@ -184,7 +184,7 @@ def _values(
                 on = table[k, f] + values[k + 1, f + 1]
             elif k + 1 == horizon and rest == 0:
                 on = table[k, f]
-            values[k, f] = max(leap[base[f]], on)
+            values[k, f] = max(leap[base[f]], on) if t + k > 0 else on
 
 
 @njit(cache=True, boundscheck=False)
@@ -203,7 +203,7 @@ def _branches(
     count, before = 0, 0.0
     for k in range(last):
         i = base[frame + k]
-        for e in range(indptr[i], indptr[i + 1]):
+        for e in range(indptr[i], indptr[i + 1] if t + k > 0 else indptr[i]):  # a dance does not begin with a join
             gain = seam(t + k, e, seam_ptr, seam_at, seam_sign, beats) - costs[e]
             for r in range(rates):
                 g = entries[r, goal[e]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from onbeat._shapes import Ints
 from onbeat.dance.lookahead import Roads
 from onbeat.dance.optimal import Path, Problem, joins_from, score_path
 from onbeat.moves.graph import GRID
@@ -22,11 +23,11 @@ def random_walk(problem: Problem, rng: np.random.Generator) -> Path:
     """
     roads = Roads.of(problem)
     total, hold = roads.frames, roads.hold
-    frame = int(rng.choice(np.flatnonzero(roads.survival >= total)))
+    frame = int(rng.choice(_beginnings(roads)))
     t, times, entries = 0, [0], [frame]
     while True:
         mean = max(EVERY * GRID - (hold if t else 0), 1.0)
-        wish = int(rng.geometric(1.0 / mean)) - 1
+        wish = int(rng.geometric(1.0 / mean)) - (1 if t else 0)  # a dance does not begin with a join
         wait, goals = _joins_after(problem, roads, t, frame, wish)
         if not len(goals):
             break
@@ -39,7 +40,14 @@ def random_walk(problem: Problem, rng: np.random.Generator) -> Path:
     return Path(np.array(times), np.array(entries), score_path(problem, times, entries))
 
 
-def _joins_after(problem: Problem, roads: Roads, t: int, frame: int, wish: int) -> tuple[int, np.ndarray]:
+def _beginnings(roads: Roads) -> Ints:
+    """Frames with which the dance can begin: they are shown, and what comes after is as long as the song."""
+    lasts = roads.left + 1 >= roads.frames
+    lasts[:-1] |= (roads.left[:-1] > 0) & (roads.survival[1:] >= roads.frames - 1)
+    return np.flatnonzero(lasts)
+
+
+def _joins_after(problem: Problem, roads: Roads, t: int, frame: int, wish: int) -> tuple[int, Ints]:
     """The first wait of at least ``wish`` frames with joins from which the song can be ended, and where they lead.
 
     Where there is none the last before it is taken, unless the clip lasts to the song's end: then none.
@@ -47,7 +55,7 @@ def _joins_after(problem: Problem, roads: Roads, t: int, frame: int, wish: int) 
     total, hold, left = roads.frames, roads.hold, int(roads.left[frame])
     lasts = left + 1 >= total - t
     longest = min(left, total - t - 1)
-    later, sooner = range(wish, longest + 1), range(min(wish - 1, longest), -1, -1)
+    later, sooner = range(wish, longest + 1), range(min(wish - 1, longest), -1 if t else 0, -1)
     for wait in (*later, *(() if lasts else sooner)):
         goals, _ = joins_from(problem, frame + wait, t + wait)
         goals = goals[roads.survival[np.minimum(goals + hold, len(roads) - 1)] >= total - t - wait - hold]
