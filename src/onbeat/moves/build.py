@@ -93,9 +93,9 @@ def _current(folder: Path, recordings: Sequence[Recording], *, mirror: bool, fps
     """The library of a folder if it is what a build of these recordings would give."""
     try:
         found, arrays = store.read_stored(folder)
+        return store.library_from(found, arrays) if is_current(found, recordings, mirror=mirror, fps=fps) else None
     except LibraryError:
         return None
-    return store.library_from(found, arrays) if is_current(found, recordings, mirror=mirror, fps=fps) else None
 
 
 def is_current(found: Manifest, recordings: Sequence[Recording], *, mirror: bool, fps: float | None) -> bool:
@@ -134,7 +134,8 @@ class Old:
             clips = store.stored_clips(found, arrays)
         except LibraryError:
             return cls()
-        if found.method != documents.method_digest() or found.fps != fps:
+        known = found.method == documents.method_digest() and found.fps == fps
+        if not known or store.content_name(arrays) != found.data:
             return cls()
         places = {(row.sha256, row.mirrored): (n, clips[n]) for n, row in enumerate(found.clips)}
         return cls(found, arrays, places)

@@ -131,10 +131,7 @@ def _check(folder: Path, found: Manifest, arrays: Arrays) -> None:
 
 def library_from(found: Manifest, arrays: Arrays) -> MoveLibrary:
     """The library that manifest and arrays describe."""
-    try:
-        clips = stored_clips(found, arrays)
-    except FormatError as error:
-        raise LibraryError(f"the library is damaged ({error}); build it again") from None
+    clips = stored_clips(found, arrays)
     clip_of = np.repeat(np.arange(len(clips)), [clip.poses for clip in found.clips])
     graph = MotionGraph(clip_of, *(np.array(arrays[name]) for name in ("indptr", "targets", "costs")))
     return MoveLibrary(
@@ -152,7 +149,14 @@ def notes_of(found: Manifest) -> list[str]:
 
 
 def stored_clips(found: Manifest, arrays: Arrays) -> list[Clip]:
-    """The clips of a library, in order."""
+    """The clips of a library, in order; a ``LibraryError`` says if they are damaged."""
+    try:
+        return _clips(found, arrays)
+    except FormatError as error:
+        raise LibraryError(f"the library is damaged ({error}); build it again") from None
+
+
+def _clips(found: Manifest, arrays: Arrays) -> list[Clip]:
     skeleton = found.skeleton.skeleton()
     clips: list[Clip] = []
     frame = pose = stop = 0
