@@ -11,6 +11,11 @@ import onbeat
 app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__)
 # Named by path, so that a command is imported when it is called; its help stands here, so that a list needs none.
 COMMANDS = {
+    "dance": (
+        "onbeat.cli.dance:dance_command",
+        "Dance to a song: motion capture and a song in, a dance on the music out.",
+        "onbeat dance song.mp3 --moves my_clips -o my_dance --seconds 60",
+    ),
     "listen": (
         "onbeat.cli.listen:listen_command",
         "Hear the beats, downbeats, chord changes and intensity of a song.",

@@ -22,6 +22,14 @@ class MoveDocument(msgspec.Struct, frozen=True):
     at_s: Annotated[float, Said(description="second of the dance at which the move begins")]
 
 
+class JoinDocument(msgspec.Struct, frozen=True):
+    """The blend from one move to the next."""
+
+    from_s: Annotated[float, Said(description="second of the dance at which it begins")]
+    to_s: Annotated[float, Said(description="second of the dance at which it ends")]
+    link_error_deg: Annotated[float, Said(description="mean angle between the links of the two poses joined, degrees")]
+
+
 class DanceDocument(msgspec.Struct, frozen=True):
     """``dance.json``: times in seconds on the clock of the dance, which begins with the song."""
 
@@ -35,6 +43,7 @@ class DanceDocument(msgspec.Struct, frozen=True):
     moves: Annotated[list[MoveDocument], Said(description="in order, without gaps")]
     metrics: Annotated[dict[str, Any], Said(description="names and values as `onbeat evaluate --json` gives them")]
     title: Annotated[str, Said(description="the song's name")] = ""
+    joins: Annotated[list[JoinDocument], Said(description="one for each move but the first")] = []
 
     def to_json(self) -> bytes:
         """The document as JSON bytes."""

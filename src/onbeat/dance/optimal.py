@@ -1,3 +1,5 @@
+# The compiled loops take plain arrays and numbers, which numba types itself.
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
 """The best dance there is in the time-expanded motion graph: exact dynamic programming, in numba.
 
 A state is a virtual frame f about to be shown at song frame t. Its value to go is
@@ -13,6 +15,7 @@ needed, so that memory does not grow with the song.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -21,13 +24,14 @@ from numba import njit
 
 from onbeat._shapes import Array, Bools, Float32, Ints
 from onbeat.dance.score import FINE, Frames, Music
+from onbeat.dance.seams import Seams
+from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID, STRETCH, MotionGraph
 
 HOLD = round(STRETCH * GRID)
 """m: song frames danced at least after a join."""
 NEVER = np.float32(-1e30)
 ROWS_MEMORY = 256_000_000  # bytes of V held at once
-AWAY = np.int32(1 << 24)  # a song frame that never comes
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +41,7 @@ class Problem:
     Parameters
     ----------
     join_costs : (joins,) what each join of the graph costs, in units of the score.
-    owner : (M,) song frame at which each virtual frame's stretch of source is meant to be shown, or ``AWAY``.
+    seams : what each join does to the stops beside it; None if nothing.
     price : what each frame costs that is shown more than a second from its owner's time.
     hold : m, song frames danced at least after a join.
     """
@@ -46,8 +50,7 @@ class Problem:
     frames: Frames
     music: Music
     join_costs: Float32
-    owner: Ints | None = None
-    price: float = 0.0
+    seams: Seams | None = None
     hold: int = HOLD
 
     @cached_property
@@ -60,6 +63,22 @@ class Problem:
         """(R, goals) int32 virtual frame of each goal at each rate; −1 where the clip ends too soon after it."""
         entry = self.frames.entry[:, self.goals[0]]
         return np.where(self.frames.left[entry] > self.hold, entry, -1).astype(np.int32)
+
+    @cached_property
+    def promise(self) -> Float32:
+        """(joins,) the most that the stops changed by each join can be worth."""
+        indptr, _, sign = self.changes
+        high, low = float(self.music.beat_worth.max()), float(self.music.beat_worth.min())
+        each = np.where(sign > 0, high, -low)
+        total = np.concatenate(([0.0], np.cumsum(each)))
+        return (total[indptr[1:]] - total[indptr[:-1]]).astype(np.float32)
+
+    @cached_property
+    def changes(self) -> tuple[Ints, Ints, Float32]:
+        """The seams' arrays, empty ones where there are none."""
+        if self.seams is None:
+            return np.zeros(self.graph.join_count + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32)
+        return self.seams.indptr, self.seams.at, self.seams.sign
 
     @cached_property
     def arrays(self) -> tuple[Array | Ints | Float32, ...]:
@@ -78,23 +97,30 @@ class Problem:
             f.intensity,
             m.beat_worth,
             m.intensity,
-            np.full(len(f), AWAY, np.int32) if self.owner is None else self.owner.astype(np.int32),
-            np.float32(self.price),
+            *self.changes,
+            self.promise,
         )
 
 
 @njit(cache=True, boundscheck=False)
-def rewards(t, row, stops, worth, shift, motion, beats, music, owner, price):
+def rewards(t, row, stops, worth, shift, motion, beats, music):
     """Fill ``row`` with r(t, ·), the worth of showing each virtual frame at song frame t."""
     now = music[t]
     for f in range(len(row)):
         row[f] = motion[f] * now
     for s in stops:
         row[s] += worth[s] * beats[(t + 4) * FINE + shift[s]]
-    if price > 0:
-        for f in range(len(row)):
-            if owner[f] < AWAY and abs(owner[f] - t) > GRID:
-                row[f] -= price
+
+
+@njit(cache=True, boundscheck=False, inline="always")
+def seam(t, e, indptr, at, sign, beats):
+    """What the stops that join e makes and unmakes are worth when it is taken at song frame t."""
+    value = np.float32(0)
+    if t == 0:  # nothing is danced before the song: a join there is only another beginning
+        return value
+    for k in range(indptr[e], indptr[e + 1]):
+        value += sign[k] * beats[max(0, min((t + 4) * FINE + at[k], len(beats) - 1))]
+    return value
 
 
 @njit(cache=True, boundscheck=False)
@@ -131,8 +157,10 @@ def _backward(
     motion,
     beats,
     music,
-    owner,
-    price,
+    seam_ptr,
+    seam_at,
+    seam_sign,
+    promise,
 ):
     """Fill rows t − begin of ``buffer`` with V(t, ·) for t = end−1 … begin; the rows from ``end`` on are there."""
     size, nodes, goals = len(base), len(indptr) - 1, entries.shape[1]
@@ -141,21 +169,23 @@ def _backward(
     leap = np.empty(nodes, np.float32)
     for t in range(end - 1, begin - 1, -1):
         span = min(hold, frames - t)
-        rewards(t, row, stops, worth, shift, motion, beats, music, owner, price)
+        rewards(t, row, stops, worth, shift, motion, beats, music)
         # Sums along the diagonals, those at t from those at t + 1. Where a clip ends they run on into the next
         # and mean nothing, but no join leads there.
         for f in range(size - 1):
             sums[f] = sums[f + 1] + row[f]
         sums[size - 1] = row[size - 1]
         if t + hold < frames:
-            rewards(t + hold, gone, stops, worth, shift, motion, beats, music, owner, price)
+            rewards(t + hold, gone, stops, worth, shift, motion, beats, music)
             for f in range(size - hold):
                 sums[f] -= gone[f + hold]
         best_entries(sums, buffer[t + span - begin], span, entries, best, which)
         for i in range(nodes):
             top = NEVER
             for e in range(indptr[i], indptr[i + 1]):
-                top = max(top, best[goal[e]] - costs[e])
+                value = best[goal[e]] - costs[e]
+                if value + promise[e] > top:  # most joins cannot win whatever their stops are worth
+                    top = max(top, value + seam(t, e, seam_ptr, seam_at, seam_sign, beats))
             leap[i] = top
         here, following = buffer[t - begin], buffer[t + 1 - begin]
         for f in range(size - 1):
@@ -171,6 +201,11 @@ class ValueToGo:
     ----------
     problem : what to search.
     rows : song frames held at once; by default as many as ``ROWS_MEMORY`` bytes hold.
+
+    Raises
+    ------
+    PlanError
+        If no dance over the joins is as long as the song.
     """
 
     def __init__(self, problem: Problem, rows: int | None = None) -> None:
@@ -186,6 +221,11 @@ class ValueToGo:
             self._kept[begin] = ahead.copy(), sums.copy()
             self._fill(begin, ahead, sums)
             ahead = self._buffer[:hold].copy()
+        if self.optimum < NEVER / 2:
+            raise PlanError(
+                f"no dance over the joins of this library lasts the song's {self.total / GRID:.1f} s: its clips have "
+                "too few poses in common; add clips or take fewer --seconds"
+            )
 
     def _fill(self, begin: int, ahead: Float32, sums: Array) -> None:
         end, hold = min(begin + self.rows, self.total), self.problem.hold
@@ -194,7 +234,7 @@ class ValueToGo:
         self._loaded = begin
 
     def stretch(self, t: int) -> tuple[int, int, Float32]:
-        """The stretch that holds song frame t: its begin, its end, and V from the begin on, ``hold`` rows past its end."""
+        """The stretch that holds song frame t: its begin, its end, and V to ``hold`` rows past its end."""
         begin = (t // self.rows) * self.rows
         if begin != self._loaded:
             ahead, sums = self._kept[begin]
@@ -224,18 +264,21 @@ def reward_along(problem: Problem, t: int, entries: Ints, span: int) -> Array:
     shown = np.asarray(entries, np.int64)[:, None] + steps
     worth = music.beat_worth[(t + steps + 4) * FINE + frames.stop_shift[shown]]
     value = frames.stop_worth[shown] * worth + frames.intensity[shown] * music.intensity[t + steps]
-    if problem.owner is not None:
-        owner = problem.owner[shown]
-        value = value - problem.price * ((owner < AWAY) & (np.abs(owner - t - steps) > GRID))
     return value.sum(axis=1, dtype=np.float64)
 
 
-def joins_from(problem: Problem, f: int) -> tuple[Ints, Array]:
-    """The virtual frames that joins from virtual frame f enter, at all rates, and the joins' costs."""
+def joins_from(problem: Problem, f: int, t: int) -> tuple[Ints, Array]:
+    """The virtual frames that joins from virtual frame f enter, at all rates, and their costs at song frame t."""
     graph, base = problem.graph, int(problem.frames.base[f])
     row = slice(int(graph.indptr[base]), int(graph.indptr[base + 1]))
     entries = problem.entries[:, problem.goals[1][row]]
-    costs = np.broadcast_to(problem.join_costs[row], entries.shape)
+    indptr, at, sign = problem.changes
+    worth = problem.music.beat_worth
+    gains = [
+        float(t > 0) * np.sum(sign[a:b] * worth[np.clip((t + 4) * FINE + at[a:b], 0, len(worth) - 1)], dtype=np.float64)
+        for a, b in itertools.pairwise(indptr[row.start : row.stop + 1].tolist())
+    ]
+    costs = np.broadcast_to(problem.join_costs[row] - np.array(gains), entries.shape)
     usable: Bools = entries >= 0
     return entries[usable].astype(np.int64), costs[usable].astype(np.float64)
 
@@ -262,7 +305,7 @@ def best_path(value: ValueToGo, start: int = -1) -> Path:
             t, f = t + 1, f + 1
             continue
         span = min(problem.hold, total - t)
-        goals, costs = joins_from(problem, f)
+        goals, costs = joins_from(problem, f, t)
         after = rows[t + span - begin, goals + span] if t + span < total else 0.0
         f = int(goals[np.argmax(reward_along(problem, t, goals, span) + after - costs)])
         times.append(t)
@@ -277,18 +320,20 @@ def score_path(problem: Problem, times: list[int] | Ints, entries: list[int] | I
     Raises
     ------
     ValueError
-        If the path is none: a join that the graph does not have, or a clip that ends too soon.
+        If the path is none: a join that the graph does not have, one too soon after another, or a clip that ends.
     """
     frames, music = problem.frames, problem.music
     ends = [*list(times)[1:], music.frames]
     total, at = 0.0, -1
     for t, f, end in zip(times, entries, ends, strict=True):
         if t:
-            goals, costs = joins_from(problem, at)
+            goals, costs = joins_from(problem, at, int(t))
             if f not in goals:
                 raise ValueError(f"no join from frame {at} to {f}")
             total -= float(costs[goals == f].min())
         span = int(end) - int(t)
+        if span < (problem.hold if t else 1) and end != music.frames:
+            raise ValueError(f"joins at song frames {t} and {end}: at least {problem.hold} must be danced between them")
         if frames.left[f] < span - (end == music.frames):
             raise ValueError(f"the clip ends before {span} frames after frame {f}")
         total += float(reward_along(problem, int(t), np.array([f]), span)[0])

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from onbeat.dance.frames import RATES, lay_frames
+from onbeat.dance.greedy import greedy_path
+from onbeat.dance.lookahead import Roads
 from onbeat.dance.optimal import Path, Problem, ValueToGo, best_path, score_path
 from onbeat.dance.plan import DancePlan, Move
 from onbeat.dance.score import score_music
+from onbeat.dance.seams import find_seams
+from onbeat.dance.shiratori2006 import shiratori2006_path
 from onbeat.dance.variety import beam_path
+from onbeat.dance.walk import random_walk
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
@@ -22,6 +28,7 @@ JOIN = 0.25
 ROUGH = 0.30
 """What a join of pose distance ``ALIKE`` costs besides; it grows with the square of the distance."""
 ALIKE = 0.30
+METHODS = ("optimal", "shiratori2006", "greedy", "walk")
 CHAPTER, AHEAD = 600.0, 15.0
 """Seconds of song searched at once, and seconds beyond them that are known."""
 
@@ -35,7 +42,7 @@ class Found:
     plan : the moves.
     objective : the score of the plan.
     optimum : the score of the best plan of all on the same graph, repeats allowed; None where it was not computed.
-    seconds : how long the search took.
+    seconds : CPU seconds of the search.
     """
 
     plan: DancePlan
@@ -44,13 +51,17 @@ class Found:
     seconds: float
 
 
-def make_problem(library: MoveLibrary, song: Song, *, rhythm_only: bool = False, rates: tuple[float, ...] = RATES) -> Problem:
+def make_problem(
+    library: MoveLibrary, song: Song, *, rhythm_only: bool = False, rates: tuple[float, ...] = RATES
+) -> Problem:
     """What the searches search: the library's frames and joins, the song's worth, and what joins cost."""
     if song.duration <= 0:
         raise PlanError("the song has no length; choose a stretch of it with --start and --seconds")
     costs = JOIN + ROUGH * (library.graph.costs / ALIKE) ** 2
     music = score_music(song, rhythm_only=rhythm_only)
-    return Problem(library.graph, lay_frames(library, rates), music, costs.astype(np.float32))
+    return Problem(
+        library.graph, lay_frames(library, rates), music, costs.astype(np.float32), seams=find_seams(library)
+    )
 
 
 def optimal(
@@ -70,17 +81,30 @@ def optimal(
         part = replace(problem, music=problem.music.part(begin, total if last else begin + chapter + ahead))
         value = ValueToGo(part)
         path = beam_path(part, value, start=start) if variety else best_path(value, start=start)
-        cut = len(path.times) if last else int(np.flatnonzero(path.times <= chapter)[-1])
-        cut = max(cut, 1) if not last and len(path.times) > 1 else len(path.times)
+        cut = len(path.times) if last else _cut(problem, path, chapter, total - begin)
+        if not cut:  # nowhere to cut: the rest is searched as a whole
+            chapter = total
+            continue
         times += (path.times[:cut] + begin).tolist()
         entries += path.entries[:cut].tolist()
         optimum += value.optimum
-        if last or cut == len(path.times):
+        if last:
             break
         start, begin = int(path.entries[cut]), begin + int(path.times[cut])
         if step is not None:
             step(begin / total)
     return Path(np.array(times), np.array(entries), score_path(problem, times, entries)), optimum
+
+
+def _cut(problem: Problem, path: Path, chapter: int, rest: int) -> int:
+    """The last join up to ``chapter``, or the first after it, from which ``rest`` frames can be danced; 0 if none."""
+    held = np.minimum(path.entries + problem.hold, len(problem.frames) - 1)
+    lasting = path.times + problem.hold + Roads.of(problem).survival[held] >= rest
+    cuts = np.flatnonzero(lasting[1:]) + 1
+    if not len(cuts):
+        return 0
+    before = cuts[path.times[cuts] <= chapter]
+    return int(before[-1] if len(before) else cuts[0])
 
 
 def plan_of(problem: Problem, library: MoveLibrary, path: Path, duration: float) -> DancePlan:
@@ -92,3 +116,46 @@ def plan_of(problem: Problem, library: MoveLibrary, path: Path, duration: float)
         clip, rate, second = int(library.graph.clip_of[laid.base[f]]), float(laid.rate[f]), float(laid.second[f])
         moves.append(Move(clip, second, second + rate * (end - start), start, rate))
     return DancePlan(tuple(moves), duration)
+
+
+def search(
+    library: MoveLibrary,
+    song: Song,
+    *,
+    method: str = "optimal",
+    rhythm_only: bool = False,
+    variety: bool = True,
+    seed: int = 0,
+    step: Callable[[float], None] | None = None,
+) -> Found:
+    """Plan a dance.
+
+    Parameters
+    ----------
+    library, song : what to dance with and to; ``song.beats`` are the beats to be met.
+    method : ``optimal``, ``greedy`` (three seconds ahead on the same objective), ``shiratori2006`` or ``walk``.
+    rhythm_only : leave intensity out.
+    variety : for ``optimal``, do not show a stretch of a clip twice.
+    seed : of ``walk``.
+    step : called with the share of the song that is planned.
+
+    Raises
+    ------
+    PlanError
+        If there is no such method, or no dance as long as the song.
+    """
+    begun = time.process_time()
+    problem = make_problem(library, song, rhythm_only=rhythm_only)
+    optimum = None
+    if method == "optimal":
+        path, optimum = optimal(problem, variety=variety, step=step)
+    elif method == "greedy":
+        path = greedy_path(problem)
+    elif method == "shiratori2006":
+        path = shiratori2006_path(problem, library, song, rhythm_only=rhythm_only)
+    elif method == "walk":
+        path = random_walk(problem, np.random.default_rng(seed))
+    else:
+        raise PlanError(f"no search method {method!r}; there are {', '.join(METHODS)}")
+    plan = plan_of(problem, library, path, song.duration)
+    return Found(plan, path.score, optimum, time.process_time() - begun)

@@ -1,19 +1,19 @@
+# The compiled loops take plain arrays and numbers, which numba types itself.
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
 """A dance that does not repeat itself: beam search guided by the exact value to go.
 
 Showing a stretch of source again costs ``REPEAT``, which makes the score depend on the past, so that dynamic
-programming no longer finds the best path. A beam of partial dances is kept instead, each with the set of stretches it has shown,
-ranked by what they have earned plus the exact value to go *without* the rule: a bound that is never too low. Of
-partial dances that reach the same frame at the same time only the best is kept.
+programming no longer finds the best path. A beam of partial dances is kept instead, each with the set of stretches it
+has shown, ranked by what they have earned plus the exact value to go *without* the rule: a bound that is never too
+low. Of partial dances that reach the same frame at the same time only the best is kept.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numba import njit
 
-from onbeat.dance.optimal import AWAY, Path, Problem, ValueToGo, best_entries, rewards, score_path
+from onbeat.dance.optimal import Path, Problem, ValueToGo, best_entries, rewards, score_path, seam
 
 BEAM = 200
 """Partial dances kept at each song frame."""
@@ -51,8 +51,8 @@ def _highest(values, count, keep):
     total = 0
     for b in range(2047, -1, -1):
         total += bins[b]
-        if total > keep:
-            return low + (b + 1) / scale
+        if total > keep:  # many that are alike at the top are all kept: a beam must not lose its best
+            return low + (b + 1 if total > bins[b] else b - 0.5) / scale
     return low
 
 
@@ -83,8 +83,10 @@ def _advance(
     motion,
     beats,
     music,
-    owner,
-    price,
+    seam_ptr,
+    seam_at,
+    seam_sign,
+    promise,
 ):
     """Move the beam from song frame ``begin`` to ``end``.
 
@@ -105,6 +107,7 @@ def _advance(
     candidates = np.empty(width * fan, np.float64)
     origin, target = np.empty(len(candidates), np.int64), np.empty(len(candidates), np.int64)
     scratch = np.zeros((1, words), np.uint64)
+    floor = -1e29
     for t in range(begin, end):
         span = min(hold, frames - t)
         if t > 0:  # sums along the diagonals, those at t from those at t − 1
@@ -113,7 +116,7 @@ def _advance(
                 sums[f] = sums[f - 1] - old[f - 1]
             if t - 1 + hold < frames:
                 new = rings[(t - 1) % hold]
-                rewards(t - 1 + hold, new, stops, worth, shift, motion, beats, music, owner, price)
+                rewards(t - 1 + hold, new, stops, worth, shift, motion, beats, music)
                 for f in range(1, size - hold + 1):
                     sums[f] += new[f + hold - 1]
             sums[0] = 0.0  # no diagonal comes from before the first frame: its sum is made anew
@@ -141,10 +144,12 @@ def _advance(
             i = base[where[slot, s]]
             for e in range(indptr[i], indptr[i + 1]):
                 bound = gain[slot, s] - costs[e] + best[goal_of[e]]
-                if bound > -1e29:
+                if t > 0 and bound + promise[e] > floor:
+                    bound += seam(t, e, seam_ptr, seam_at, seam_sign, beats)
                     candidates[many], origin[many], target[many] = bound, s, which[goal_of[e]]
                     many += 1
         threshold = _highest(candidates, many, width)
+        floor = max(threshold - 1.5 * repeat, -1e29)  # joins far under what was kept a moment ago are not looked at
         for c in range(many):
             if candidates[c] < threshold:
                 continue
@@ -203,8 +208,8 @@ def _advance(
                 continue
             earned = gain[slot, s] + row_now[f]
             g = f + 1 if left[f] > 0 else f
-            fresh = block[g] != block[f]
-            if fresh and _shown(history[slot], s, block[g]):
+            fresh = t > 0 and block[f] != block[f - 1]  # f is shown now, and f − 1 was shown before it
+            if fresh and _shown(history[slot], s, block[f]):
                 earned -= repeat
             if stamp[g] == frames + t:
                 row = place[g]
@@ -220,15 +225,13 @@ def _advance(
             for w in range(words):
                 history[slot_next, row, w] = history[slot, s, w]
             if fresh:
-                _show(history[slot_next], row, block[g])
+                _show(history[slot_next], row, block[f])
         count[slot_next] = m
         count[slot] = 0
     return free_node
 
 
-def beam_path(
-    problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: float = REPEAT, start: int = -1
-) -> Path:
+def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: float = REPEAT, start: int = -1) -> Path:
     """The best of ``beam`` partial dances, led by ``value``, that (nearly) never shows a stretch of source twice."""
     frames = value.total
     laid = problem.frames
@@ -248,7 +251,7 @@ def beam_path(
     for s, f in enumerate(starts.tolist()):
         state[0][held, s], state[2][held, s] = f + held, s
         nodes[0][s], nodes[1][s], nodes[2][s] = -1, 0, f
-        for block in np.unique(laid.block[f : f + held + 1]).tolist():
+        for block in np.unique(laid.block[f : f + max(held, 1)]).tolist():
             state[3][held, s, block >> 6] |= np.uint64(1) << np.uint64(block & 63)
     state[4][held] = len(starts)
     free, t = len(starts), 0
@@ -271,7 +274,7 @@ def _first_sums(problem: Problem, rings: np.ndarray) -> np.ndarray:
     size = len(problem.frames)
     sums = np.zeros(size)
     for k in range(min(problem.hold, problem.music.frames)):
-        rewards(k, rings[k], *problem.arrays[6:])
+        rewards(k, rings[k], *problem.arrays[6:12])
         sums[: size - k] += rings[k][k:]
     return sums
 
@@ -285,16 +288,3 @@ def _walk_back(problem: Problem, nodes: tuple[np.ndarray, np.ndarray, np.ndarray
         node = int(nodes[0][node])
     times, entries = times[::-1], entries[::-1]
     return Path(np.array(times), np.array(entries), score_path(problem, times, entries))
-
-
-def owned(problem: Problem, path: Path, price: float) -> Problem:
-    """The same problem, where showing a stretch of source at another time than ``path`` does costs ``price`` a frame.
-
-    Its value to go knows what the path has found out: which stretches are wanted more than once, and when best.
-    """
-    laid = problem.frames
-    when = np.full(laid.blocks, int(AWAY), np.int64)
-    ends = [*path.times[1:].tolist(), problem.music.frames]
-    for t, f, end in zip(path.times.tolist(), path.entries.tolist(), ends, strict=True):
-        when[laid.block[f : f + end - t]] = t + np.arange(end - t)
-    return replace(problem, owner=when[laid.block], price=price)

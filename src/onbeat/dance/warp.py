@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import piqp
-from scipy.sparse import csc_matrix, diags_array
+from scipy.sparse import csc_matrix, eye_array
 
 from onbeat._shapes import Array, Times
 from onbeat.dance.plan import DancePlan
@@ -96,9 +96,7 @@ def pair_stops(stops: Times, beats: Times, reach: float = REACH) -> list[tuple[i
     return pairs[::-1]
 
 
-def fit_warp(
-    plan: DancePlan, stops: Times, beats: Times, speed_times: Times, speeds: Array, rounds: int = 4
-) -> Warp:
+def fit_warp(plan: DancePlan, stops: Times, beats: Times, speed_times: Times, speeds: Array, rounds: int = 4) -> Warp:
     """The warp that brings stops (plan seconds) onto beats (dance seconds).
 
     Parameters
@@ -148,8 +146,8 @@ def _bounds(plan: DancePlan, knots: Times, speed_times: Times, speeds: Array) ->
 
 def _solve(knots: Times, low: Array, high: Array, beats: Times, stops: Times) -> Warp:
     count, step = len(knots), float(knots[1] - knots[0])
-    rate = diags_array([-1 / step, 1 / step], offsets=[0, 1], shape=(count - 1, count))
-    bend = diags_array([-1.0, 1.0], offsets=[0, 1], shape=(count - 2, count - 1)) @ rate
+    rate = (eye_array(count - 1, count, k=1) - eye_array(count - 1, count)) / step
+    bend = (eye_array(count - 2, count - 1, k=1) - eye_array(count - 2, count - 1)) @ rate
     place = np.clip(beats / step, 0, count - 1 - 1e-9)
     left = place.astype(np.int64)
     rows = np.arange(len(beats))
@@ -172,5 +170,3 @@ def _solve(knots: Times, low: Array, high: Array, beats: Times, stops: Times) ->
     rates = np.clip(np.diff(values) / step, low, high)  # what the solver leaves of its tolerance
     values = np.concatenate(([0.0], np.cumsum(rates * step)))
     return Warp(knots, values + (knots[-1] - values[-1]) * knots / knots[-1])
-
-

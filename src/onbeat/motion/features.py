@@ -6,6 +6,7 @@ that 30, 60 and 120 frames per second give the same result.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -156,7 +157,7 @@ def intensity_component(features: HandFeatures, times: Times, width: float = INT
     """
     total = np.zeros(len(times))
     for hand, stops in enumerate(features.stops):
-        for first, second in zip(stops[:-1], stops[1:], strict=True):
+        for first, second in itertools.pairwise(stops.tolist()):
             low, high = np.searchsorted(features.times, (first, second))
             peak = float(features.speeds[low : max(high, low + 1), hand].max())
             total += peak * np.exp(-(((times - (first + second) / 2) / width) ** 2))

@@ -62,15 +62,15 @@ def write_video(
     OnbeatError
         If the file cannot be written, or the size is odd.
     """
-    av = _av()
+    av = require_av()
     if size[0] % 2 or size[1] % 2 or min(size) < 16:
         raise OnbeatError(f"a video of {size[0]} x {size[1]} pixels cannot be coded; give even numbers from 16 on")
     with _whole_file(Path(path)) as temporary:
         _encode(av, temporary, motion, song, audio, fps, size, np.zeros(0) if stops is None else stops, progress)
 
 
-def _av() -> Any:
-    """PyAV, which is an extra."""
+def require_av() -> Any:
+    """PyAV, which is an extra; a ``MissingExtraError`` says how to get it."""
     try:
         return importlib.import_module("av")
     except ImportError:

@@ -1,0 +1,242 @@
+"""``onbeat dance``: from a song to a dance."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Literal
+
+import cyclopts
+from rich.console import Console
+from rich.table import Table
+
+from onbeat._shapes import Float32
+from onbeat.cli.progress import Stages
+from onbeat.dance.make import LONGEST, Dance, make_dance
+from onbeat.errors import OnbeatError, PlanError
+from onbeat.files import make_folder
+from onbeat.moves.library import MoveLibrary
+from onbeat.music.song import Song
+
+Sound = tuple[Float32, int]
+
+
+def dance_command(
+    song: Path | None = None,
+    /,
+    *,
+    moves: Path | None = None,
+    output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])] = Path("dance"),
+    seconds: float | None = None,
+    start: float = 0.0,
+    seed: int = 0,
+    method: Literal["optimal", "shiratori2006", "greedy", "walk"] = "optimal",
+    rhythm_only: Annotated[bool, cyclopts.Parameter(negative="")] = False,
+    fps: float | None = None,
+    warp: bool = True,
+    mirror: bool = True,
+    video: Annotated[bool, cyclopts.Parameter(negative="")] = False,
+    json: Annotated[bool, cyclopts.Parameter(negative="")] = False,
+) -> None:
+    """Dance to a song with the moves of a folder of motion capture.
+
+    Without SONG the embedded song is played; without --moves the embedded troupe dances.
+
+    Example: ``onbeat dance song.mp3 --moves my_clips -o my_dance --seconds 60``
+
+    Parameters
+    ----------
+    song
+        Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``.
+    moves
+        Motion files (BVH, ASF/AMC, npz), a folder of them, or a library made by ``onbeat moves build``.
+    output
+        Folder for dance.bvh, dance.glb, dance.html, dance.json and song.json.
+    seconds
+        How much of the song to dance to.
+    start
+        Second of the song to begin at.
+    seed
+        Chooses among equals; the same seed gives the same bytes.
+    method
+        How moves are chosen: ``optimal`` over the whole song, ``shiratori2006`` three seconds ahead as in the paper,
+        ``greedy`` three seconds ahead on our objective, ``walk`` at random.
+    rhythm_only
+        Follow the beat alone, not the music's intensity.
+    fps
+        Frames per second of the dance; by default those of the moves.
+    warp
+        Move stops onto the beats by a small time warp.
+    mirror
+        Dance mirror images of the moves, too.
+    video
+        Write dance.mp4 with sound (needs the extra ``video``).
+    json
+        Print dance.json on stdout instead of a table.
+    """
+    _check(seconds, start)
+    if video:
+        _require_video()
+    with Stages() as stages:
+        heard, sound = _hear(song, start, seconds, seed, stages)
+        library = _library(moves, mirror, stages)
+        dance = make_dance(
+            heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, step=stages
+        )
+        with _staged(output) as folder:
+            _write(folder, dance, sound, video, stages)
+    if json:
+        print(dance.document.to_json().decode(), end="")  # noqa: T201
+        return
+    Console().print(_table(dance, output))
+    page = output / "dance.html"
+    Console().print(f"Look at it: open {page}\nThen try: {_next(song, moves, video)}", highlight=False, soft_wrap=True)
+
+
+def _check(seconds: float | None, start: float) -> None:
+    if seconds is not None and not 0 < seconds <= LONGEST:
+        raise PlanError(f"--seconds {seconds:g}: give more than 0 and at most {LONGEST:g}")
+    if not start >= 0:
+        raise PlanError(f"--start {start:g}: give a second of the song, 0 or later")
+
+
+def _require_video() -> None:
+    from onbeat.viewer.video import require_av
+
+    require_av()
+
+
+def _hear(song: Path | None, start: float, seconds: float | None, seed: int, stages: Stages) -> tuple[Song, Sound]:
+    """The song as heard and its sound, both from ``start`` on."""
+    from onbeat.music.audio import audio_duration, read_stereo
+    from onbeat.music.listen import listen
+
+    if song is None:
+        return _hear_embedded(start, seconds, seed, stages)
+    stages("listening", 0.0)
+    length = audio_duration(song)
+    if start >= length:
+        raise PlanError(f"--start {start:g}: {song} lasts {length:.1f} s")
+    wanted = min(seconds or length, length - start)
+    if wanted > LONGEST:
+        raise PlanError(
+            f"{song} lasts {length / 60:.0f} minutes; a dance lasts at most {LONGEST / 60:.0f}: "
+            "choose a stretch with --start and --seconds"
+        )
+    heard = listen(song, start=start, seconds=wanted, progress=lambda s: stages("listening", s / wanted))
+    return heard, read_stereo(song, start, wanted)
+
+
+def _hear_embedded(start: float, seconds: float | None, seed: int, stages: Stages) -> tuple[Song, Sound]:
+    import numpy as np
+    import soxr
+
+    from onbeat.examples import embedded_song
+    from onbeat.music.audio import RATE, Audio
+    from onbeat.music.listen import listen_samples
+
+    stages("composing", 0.0)
+    _, samples, rate = embedded_song(max(60.0, start + (seconds or 0.0)), seed)
+    samples = samples[round(start * rate) :]
+    samples = samples if seconds is None else samples[: round(seconds * rate)]
+    stages("listening", 0.0)
+    mono = np.asarray(soxr.resample(samples.mean(axis=1), rate, RATE), np.float32)
+    return listen_samples(Audio(mono, RATE), title="the embedded song"), (samples, rate)
+
+
+def _library(moves: Path | None, mirror: bool, stages: Stages) -> MoveLibrary:
+    from onbeat.moves.cache import build_or_open
+    from onbeat.moves.embedded import embedded_library
+
+    def step(what: str, share: float) -> None:
+        stages("moves", share, what)
+
+    if moves is None:
+        return embedded_library(mirror=mirror, step=step)
+    return build_or_open(moves, mirror=mirror, step=step)
+
+
+@contextlib.contextmanager
+def _staged(output: Path) -> Iterator[Path]:
+    """A folder beside the output whose files are moved into it when all are written, else removed."""
+    make_folder(output)
+    try:
+        folder = Path(tempfile.mkdtemp(prefix=".dance-", dir=output))
+    except OSError as error:
+        raise OnbeatError(f"cannot write into {output}: {error.strerror}; choose another folder with -o") from None
+    try:
+        yield folder
+        for file in sorted(folder.iterdir()):
+            os.replace(file, output / file.name)
+    except OSError as error:
+        raise OnbeatError(f"cannot write into {output}: {error.strerror or error}") from None
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages) -> None:
+    import msgspec
+
+    from onbeat.files import write_atomically
+    from onbeat.formats.registry import write_motion
+    from onbeat.viewer.page import write_page
+
+    stages("writing", 0.0)
+    write_motion(dance.motion, folder / "dance.bvh")
+    stages("writing", 0.3)
+    write_motion(dance.motion, folder / "dance.glb")
+    stages("writing", 0.5)
+    write_page(folder / "dance.html", dance.motion, dance.song, msgspec.to_builtins(dance.document), sound)
+    write_atomically(folder / "dance.json", dance.document.to_json())
+    write_atomically(folder / "song.json", dance.song.to_json())
+    stages("writing", 1.0)
+    if video:
+        from onbeat.viewer.video import write_video
+
+        write_video(
+            folder / "dance.mp4", dance.motion, dance.song, sound, stops=dance.stops,
+            progress=lambda share: stages("filming", share),
+        )  # fmt: skip
+
+
+def _table(dance: Dance, output: Path) -> Table:
+    metrics = dance.document.metrics
+    source = metrics["feet"]["skate_source"]
+    before, after, variety = metrics["beats_before_warp"], metrics["beats"], metrics["variety"]
+    table = Table(title=f"{dance.song.title}: {dance.song.duration:.1f} s at {dance.song.tempo:.0f} BPM → {output}")
+    table.add_column("figure")
+    table.add_column("value", justify="right")
+    table.add_column("what it says")
+    rows = (
+        (
+            "on the beat, ±50 ms",
+            after["f50"],
+            ".2f",
+            f"F-measure of stops and beats; {before['f50']:.2f} before the warp",
+        ),
+        ("on the beat, ±100 ms", after["f100"], ".2f", f"{before['f100']:.2f} before the warp"),
+        ("against chance", after["f50_jitter_z"], ".1f", "standard deviations above beats shifted at random"),
+        ("with the intensity", metrics["intensity"]["intensity_pearson"], ".2f", "correlation of hands and music"),
+        ("joins a minute", variety["joins_per_minute"], ".0f", "from one clip to another"),
+        ("feet at joins", metrics["feet"]["skate_joins"], ".3f", f"m/s of planted feet; {_of(source)} in the clips"),
+        ("shown twice", variety["repeated_s"], ".1f", "seconds of clips seen again"),
+    )
+    for name, value, digits, meaning in rows:
+        table.add_row(name, "–" if value is None else format(value, digits), meaning)
+    return table
+
+
+def _of(value: float | None) -> str:
+    return "–" if value is None else f"{value:.3f}"
+
+
+def _next(song: Path | None, moves: Path | None, video: bool) -> str:
+    if song is None:
+        return "onbeat dance YOUR_SONG.mp3"
+    if moves is None:
+        return f"onbeat dance {song} --moves YOUR_CLIPS/"
+    return f"onbeat dance {song} --moves {moves}" + (" --rhythm-only" if video else " --video")

@@ -1,0 +1,52 @@
+"""Progress on stderr: what is done now, how far it is and how long it will take."""
+
+from __future__ import annotations
+
+from types import TracebackType
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+
+class Stages:
+    """A line of progress for each stage of a job, as it is reached.
+
+    Called with a stage's name and its share done, 0…1; naming a new stage ends the one before.
+    """
+
+    def __init__(self) -> None:
+        self._progress = Progress(
+            TextColumn("{task.description:<10}"),
+            BarColumn(bar_width=30),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            TextColumn("{task.fields[detail]}"),
+            console=Console(stderr=True),
+        )
+        self._task: TaskID | None = None
+        self._name = ""
+
+    def __enter__(self) -> Stages:
+        """Begin to draw."""
+        self._progress.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """End the last stage, if all went well."""
+        if kind is None:
+            self._finish()
+        self._progress.stop()
+
+    def __call__(self, stage: str, share: float, detail: str = "") -> None:
+        """Say that ``share`` of ``stage`` is done, and what of it is done now."""
+        if stage != self._name:
+            self._finish()
+            self._task, self._name = self._progress.add_task(stage, total=1.0, detail=""), stage
+        if self._task is not None:
+            self._progress.update(self._task, completed=min(max(share, 0.0), 1.0), detail=detail)
+
+    def _finish(self) -> None:
+        if self._task is not None:
+            self._progress.update(self._task, completed=1.0, detail="")

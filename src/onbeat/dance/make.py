@@ -1,0 +1,166 @@
+"""The main job in one call: a song and a motion library in, a dance on the music out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from onbeat._shapes import Times
+from onbeat.dance.document import VERSION, DanceDocument, JoinDocument, MoveDocument
+from onbeat.dance.plan import DancePlan
+from onbeat.dance.realise import Realised, realise
+from onbeat.dance.report import Measured, measure
+from onbeat.dance.search import Found, search
+from onbeat.dance.warp import Warp, fit_warp
+from onbeat.errors import PlanError
+from onbeat.motion.features import hand_features
+from onbeat.motion.motion import Motion
+from onbeat.moves.library import MoveLibrary
+from onbeat.music.song import Song
+from onbeat.music.tempo import danceable_beats
+
+LONGEST = 1200.0
+"""Seconds of song that one dance may last: its motion is held in memory whole."""
+Step = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Dance:
+    """A dance and how it came about.
+
+    Parameters
+    ----------
+    motion : exactly as long as the song, at the asked rate.
+    song : with the beats that are danced to.
+    plan : the moves, before the time warp.
+    warp : dance time to plan time; None where it was not asked for.
+    realised : the motion with its joins and contacts.
+    found : what the search says of its plan.
+    stops : seconds at which the hands come to rest, found on the finished motion.
+    document : ``dance.json``.
+    """
+
+    motion: Motion
+    song: Song
+    plan: DancePlan
+    warp: Warp | None
+    realised: Realised
+    found: Found
+    stops: Times
+    document: DanceDocument
+
+
+def make_dance(
+    song: Song,
+    library: MoveLibrary,
+    *,
+    fps: float | None = None,
+    seed: int = 0,
+    method: str = "optimal",
+    rhythm_only: bool = False,
+    warp: bool = True,
+    step: Step | None = None,
+) -> Dance:
+    """Dance to a song with the moves of a library.
+
+    Parameters
+    ----------
+    song : as heard by ``onbeat.listen``; its tempo is folded to one that is danced to.
+    library : clips and the graph that joins them.
+    fps : frames per second of the dance; by default those of the library's clips.
+    seed : of the random nulls in the metrics, and of the method ``walk``.
+    method : one of ``search.METHODS``.
+    rhythm_only : leave intensity out (the ablation of Shiratori et al. 2006, Fig. 8).
+    warp : move stops onto beats by a small time warp.
+    step : called with what is done now and the share of all done, 0…1.
+
+    Raises
+    ------
+    PlanError
+        If the song has no beats or is too long, or the library cannot fill it.
+
+    Examples
+    --------
+    >>> from onbeat.examples import embedded_song
+    >>> from onbeat.moves.embedded import embedded_library
+    >>> dance = make_dance(embedded_song(seconds=8.0)[0], embedded_library(), fps=30)
+    >>> len(dance.motion), dance.document.method
+    (240, 'optimal')
+    """
+    say = step or _silent
+    song = _danceable(song)
+    fps = fps or max(clip.motion.fps for clip in library.clips)
+    if not 1.0 <= fps <= 1000.0:
+        raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
+    say("searching", 0.0)
+    found = search(library, song, method=method, rhythm_only=rhythm_only, seed=seed, step=lambda s: say("searching", s))
+    clips = [clip.motion for clip in library.clips]
+    say("dancing", 0.0)
+    first = realise(clips, found.plan, fps)
+    features = hand_features(first.motion)
+    done, fitted = first, None
+    if warp:
+        say("warping", 0.4)
+        fitted = fit_warp(found.plan, features.body_stops, song.beats, features.times, features.speeds.max(axis=1))
+        done = realise(clips, found.plan, fps, fitted)
+    say("measuring", 0.7)
+    measured = measure(library, song, found, first, done, fitted, seed)
+    document = _document(library, song, found, done, fitted, measured, fps, seed, method)
+    say("measuring", 1.0)
+    return Dance(done.motion, song, found.plan, fitted, done, found, measured.stops, document)
+
+
+def _danceable(song: Song) -> Song:
+    if song.duration > LONGEST:
+        raise PlanError(
+            f"the song lasts {song.duration / 60:.0f} minutes; a dance lasts at most {LONGEST / 60:.0f}: "
+            "choose a stretch with --start and --seconds"
+        )
+    song = danceable_beats(song)
+    if len(song.beats) < 2:
+        raise PlanError(
+            f"{len(song.beats)} beats are heard in {song.duration:.1f} s of {song.title or 'the song'}; "
+            "at least 2 are needed: choose another stretch with --start and --seconds"
+        )
+    return song
+
+
+def _silent(what: str, share: float) -> None:
+    """Nobody watches."""
+
+
+def _document(
+    library: MoveLibrary,
+    song: Song,
+    found: Found,
+    done: Realised,
+    warp: Warp | None,
+    measured: Measured,
+    fps: float,
+    seed: int,
+    method: str,
+) -> DanceDocument:
+    at = [move.at_s for move in found.plan.moves]
+    shown = at if warp is None else warp.inverse(found.plan.join_times).tolist()
+    shown = shown if warp is None else [0.0, *shown]
+    moves = [
+        MoveDocument(library.clips[move.clip].name, round(move.from_s, 4), round(move.to_s, 4), round(start, 4))
+        for move, start in zip(found.plan.moves, shown, strict=True)
+    ]
+    joins = [
+        JoinDocument(round(start, 4), round(end, 4), round(float(error), 2))
+        for (start, end), error in zip(done.windows, measured.link_errors.tolist(), strict=True)
+    ]
+    return DanceDocument(
+        version=VERSION,
+        fps=fps,
+        duration=round(song.duration, 4),
+        seed=seed,
+        method=method,
+        beats=[round(beat, 4) for beat in song.beats.tolist()],
+        stops=[round(stop, 4) for stop in measured.stops.tolist()],
+        moves=moves,
+        metrics=measured.metrics,
+        title=song.title,
+        joins=joins,
+    )
