@@ -12,7 +12,7 @@ from onbeat.motion.contacts import twist
 
 FARTHEST, MOST_TURNED = 0.12, 0.6
 """Metres and radians: a foot that the clips have strayed farther than this from where it rests has to step."""
-PARTED = 0.5
+PARTED = 0.8
 """Part of a window in whose middle a foot is in the air if it cannot rest through the join."""
 LIFT, HIGHEST = 0.3, 0.05
 """A step is lifted by this part of its length, up to so many metres."""
