@@ -1,4 +1,6 @@
-"""Hearing as published: Shiratori, Nakazawa & Ikeuchi, "Dancing-to-Music Character Animation", 2006, section III.
+"""Hearing as published in Sec. III of Shiratori, Nakazawa & Ikeuchi 2006.
+
+"Synthesizing Dance Performance Using Musical and Motion Features", ICRA 2006.
 
 Kept literal, for comparison: one band of linear power, a beat interval from the autocorrelation alone (so halves and
 doubles of the tempo occur), beats that follow the onsets and lag behind them a little. The paper stops at the degree of
