@@ -40,7 +40,7 @@ class Roads:
     left : (M,) frames of the same clip and rate that follow.
     indptr, goal, costs : the joins that leave each node in compressed rows: which goal they lead to, what they cost.
     entries : (R, goals) the frames at which a goal can be entered, or −1.
-    seams : what each join does to the stops beside it, as in ``Problem.changes``; all zeros for nothing.
+    seams : what each join does to the stops beside it, as in ``Problem.changes``, and the most it can be worth.
     beats : the worth of a stop at each instant, as in ``Music.beat_worth``.
     hold : frames danced at least after a join.
     frames : frames of the song.
@@ -52,7 +52,7 @@ class Roads:
     goal: Ints
     costs: Array
     entries: Ints
-    seams: tuple[Ints, Ints, Float32]
+    seams: tuple[Ints, Ints, Float32, Float32]
     beats: Float32
     hold: int
     frames: int
@@ -67,7 +67,7 @@ class Roads:
             problem.goals[1],
             problem.join_costs.astype(np.float64),
             problem.entries.astype(np.int64),
-            problem.changes,
+            (*problem.changes, problem.promise),
             problem.music.beat_worth,
             problem.hold,
             problem.music.frames,
@@ -153,7 +153,7 @@ def _landing(values, k, g, hold, rest, survival):
 @njit(cache=True, boundscheck=False)
 def _values(
     t, first, table, values,
-    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, beats,
+    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, promise, beats,
 ):  # fmt: skip
     horizon, size = table.shape
     rest = frames - t - horizon
@@ -175,8 +175,9 @@ def _values(
         for i in range(nodes):
             top = IMPOSSIBLE
             for e in range(indptr[i], indptr[i + 1]):
-                worth = best[goal[e]] - costs[e] + seam(t + k, e, seam_ptr, seam_at, seam_sign, beats)
-                top = max(top, worth)
+                worth = best[goal[e]] - costs[e]
+                if worth + promise[e] > top:  # most joins cannot win whatever their stops are worth
+                    top = max(top, worth + seam(t + k, e, seam_ptr, seam_at, seam_sign, beats))
             leap[i] = top
         for f in range(size):
             on = IMPOSSIBLE
@@ -190,7 +191,7 @@ def _values(
 @njit(cache=True, boundscheck=False)
 def _branches(
     t, frame, table, values,
-    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, beats,
+    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, promise, beats,
 ):  # fmt: skip
     horizon, rates = len(table), entries.shape[0]
     rest = frames - t - horizon

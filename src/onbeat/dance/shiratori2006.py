@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from onbeat._shapes import Array, Ints
+from onbeat._shapes import Array, Float32, Ints
 from onbeat.dance.greedy import HORIZON, follow
 from onbeat.dance.lookahead import IMPOSSIBLE, Branches, Roads
 from onbeat.dance.optimal import Path, Problem, score_path
@@ -125,9 +125,14 @@ def _own_rate(problem: Problem) -> tuple[Roads, Ints]:
         left=left,
         costs=np.zeros(graph.join_count),
         entries=entries,
-        seams=(np.zeros(graph.join_count + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32)),
+        seams=_no_seams(graph.join_count),
     )
     return roads, shown
+
+
+def _no_seams(joins: int) -> tuple[Ints, Ints, Float32, Float32]:
+    nothing = np.zeros(0, np.int32)
+    return np.zeros(joins + 1, np.int32), nothing, np.zeros(0, np.float32), np.zeros(joins, np.float32)
 
 
 def _begin(roads: Roads, parts: Components, ahead: int) -> int:
