@@ -15,7 +15,7 @@ from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 
 STRAIGHT = 0.999
-"""Part of the leg's length to which it is stretched at most."""
+"""Part of the leg's length to which it is stretched at most, unless it is straighter already."""
 FOLDED = 1.02
 """A folded leg stays longer than this times the difference of its bones."""
 
@@ -53,10 +53,10 @@ def bend_leg(hip: Positions, knee: Positions, ankle: Positions, target: Position
     a, b = np.linalg.norm(thigh, axis=-1), np.linalg.norm(shin, axis=-1)
     normal, sign = _plane(thigh, shin, hinge)
     reach = np.linalg.norm(target - hip, axis=-1)
-    wanted = np.clip(reach, FOLDED * np.abs(a - b) + 1e-6, STRAIGHT * (a + b))
     now = np.linalg.norm(ankle - hip, axis=-1)
-    # A leg that is already where it should be, or straighter than we stretch one, stays as it is.
-    wanted = np.where((now > wanted) & (reach >= now), now, wanted)
+    # A leg that is straighter than we stretch one may stay so, or it would snap where the target leaves the ankle.
+    longest = np.maximum(STRAIGHT * (a + b), now)
+    wanted = np.clip(reach, np.minimum(FOLDED * np.abs(a - b) + 1e-6, now), longest)
     swing = rot.between(ankle - hip, target - hip)
     # The knee bends about its hinge; one that is overstretched stays so only while the leg gets no shorter.
     bends = np.where((sign < 0) & (wanted >= now - 1e-9), -1.0, 1.0)
