@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from functools import partial
+from importlib.metadata import version
 
-import onbeat
 from onbeat.examples import embedded_motions
 from onbeat.moves.build import Step
 from onbeat.moves.cache import build_from
@@ -15,5 +15,5 @@ TROUPE = 1  # to be raised when the troupe's dances change
 
 def embedded_library(seed: int = 0, *, mirror: bool = True, step: Step | None = None) -> MoveLibrary:
     """The moves of the procedural troupe, ready to dance."""
-    key = f"troupe {TROUPE} of onbeat {onbeat.__version__}, seed {seed}"
+    key = f"troupe {TROUPE} of onbeat {version('onbeat')}, seed {seed}"
     return build_from(partial(embedded_motions, seed), key, mirror=mirror, step=step)

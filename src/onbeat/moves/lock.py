@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 from collections.abc import Generator
@@ -22,13 +23,14 @@ def building(folder: Path) -> Generator[None, None, None]:
     """Make a library's folder and hold its lock.
 
     The operating system drops the lock when its process ends, however it ends, so no stale lock is ever left; the file
-    stays and holds the number of the last process for the message.
+    stays and holds the number of the last process for the message. A folder made here in vain is taken away again.
 
     Raises
     ------
     StorageError
         If another builder holds it, or the folder cannot be made or written.
     """
+    new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         handle = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
@@ -43,8 +45,15 @@ def building(folder: Path) -> Generator[None, None, None]:
                 f"{folder} is being built by process {holder}; wait until it is done, or choose another folder"
             ) from None
         os.ftruncate(handle, 0)
-        os.pwrite(handle, str(os.getpid()).encode(), 0)
+        os.lseek(handle, 0, os.SEEK_SET)
+        os.write(handle, str(os.getpid()).encode())
         yield
+    except BaseException:
+        if new and [path.name for path in folder.iterdir()] == [LOCK]:
+            with contextlib.suppress(OSError):
+                (folder / LOCK).unlink()
+                folder.rmdir()
+        raise
     finally:
         os.close(handle)
 
