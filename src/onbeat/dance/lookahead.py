@@ -1,3 +1,5 @@
+# The compiled loops take plain arrays and numbers, which numba types itself.
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
 """What the next seconds can bring: every path from here to a horizon, by dynamic programming over all frames.
 
 The searches that do not see the whole song (``greedy``, ``shiratori2006``) and the random walk share two things: how
@@ -9,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -88,7 +90,7 @@ class Roads:
             )
         return found
 
-    def values(self, t: int, table: Array, first: int = 0) -> Array:
+    def values(self, t: int, table: Array | Float32, first: int = 0) -> Array:
         """(H + 1, M) best sum of ``table`` less the costs of joins, from each frame on; rows before ``first`` left out.
 
         ``table`` (H, M) holds what each frame is worth at the song frames from t on. Frames from which the song cannot
@@ -100,12 +102,12 @@ class Roads:
         _values(t, first, table, values, *self._arrays)
         return values
 
-    def branches(self, t: int, frame: int, table: Array, values: Array) -> Branches:
+    def branches(self, t: int, frame: int, table: Array | Float32, values: Array) -> Branches:
         """All first branches from ``frame``, each with its best completion up to the horizon, in order of wait."""
         return Branches(*_branches(t, frame, table, values, *self._arrays))
 
     @cached_property
-    def _arrays(self) -> tuple[object, ...]:
+    def _arrays(self) -> tuple[Any, ...]:
         return (
             self.frames, self.hold, self.indptr, self.goal, self.costs, self.base, self.left, self.entries,
             self.survival, *self.seams, self.beats,

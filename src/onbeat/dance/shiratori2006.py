@@ -73,7 +73,7 @@ def components(library: MoveLibrary, song: Song, frames: int) -> Components:
     degree = song.chord_change if np.any(song.chord_change > 0) else np.ones(len(song.beats))
     beat = np.zeros(frames)
     np.maximum.at(beat, np.clip(np.round(song.beats * GRID).astype(np.int64), 0, frames - 1), degree)
-    music = song.intensity_at((np.arange(frames) + 0.5) / GRID)
+    music = song.intensity_at((np.arange(frames, dtype=np.float64) + 0.5) / GRID)
     return Components(
         np.concatenate(stop), library.intensity, beat, gaussian_filter1d(music, PHRASE * GRID, mode="nearest")
     )
@@ -131,8 +131,8 @@ def _own_rate(problem: Problem) -> tuple[Roads, Ints]:
 
 
 def _no_seams(joins: int) -> tuple[Ints, Ints, Float32, Float32]:
-    nothing = np.zeros(0, np.int32)
-    return np.zeros(joins + 1, np.int32), nothing, np.zeros(0, np.float32), np.zeros(joins, np.float32)
+    """Joins that change no stops."""
+    return np.zeros(joins + 1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.float32), np.zeros(joins, np.float32)
 
 
 def _begin(roads: Roads, parts: Components, ahead: int) -> int:
