@@ -10,11 +10,13 @@ from onbeat.motion import Body, Motion, Skeleton
 from onbeat.music import Song, listen
 
 if TYPE_CHECKING:
+    from onbeat.dance.make import Dance, make_dance
     from onbeat.formats import read_motion, write_motion
     from onbeat.moves.library import MoveLibrary
 
 __all__ = [
     "Body",
+    "Dance",
     "Motion",
     "MoveLibrary",
     "OnbeatError",
@@ -22,13 +24,16 @@ __all__ = [
     "Song",
     "__version__",
     "listen",
+    "make_dance",
     "read_motion",
     "write_motion",
 ]
 __version__ = "0.1.0"
 
 _ON_DEMAND = {
+    "Dance": "onbeat.dance.make",
     "MoveLibrary": "onbeat.moves.library",
+    "make_dance": "onbeat.dance.make",
     "read_motion": "onbeat.formats",
     "write_motion": "onbeat.formats",
 }

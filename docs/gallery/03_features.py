@@ -1,0 +1,28 @@
+"""What a motion has for the music: stops, intensity, foot contacts."""
+
+import numpy as np
+
+from onbeat.examples.dancers import DANCERS
+from onbeat.examples.folk_dance import FOLK_DANCE
+from onbeat.examples.performer import perform
+from onbeat.motion.contacts import foot_contacts
+from onbeat.motion.features import hand_features, intensity_component
+
+danced = perform(DANCERS[3], [FOLK_DANCE], speed=1.0, cycles=2, rng=np.random.default_rng(0))
+motion = danced.motion
+
+# A dancer's hands come to rest in the keyposes, and the keyposes are on beats.
+features = hand_features(motion)
+late = np.abs(features.body_stops[:, None] - danced.beats).min(axis=1)
+print(f"{len(features.body_stops)} stops; half of them within {1000 * np.median(late):.0f} ms of a beat")
+
+# The same at another rate: times are seconds, so nothing depends on frames.
+slower = hand_features(motion.resampled(30.0))
+print(f"at 30 frames a second: {len(slower.body_stops)} stops")
+
+times = np.arange(0.0, motion.duration, 0.1)
+strength = intensity_component(features, times)
+print(f"hands move at up to {strength.max():.1f} m/s, at their strongest {times[strength.argmax()]:.1f} s in")
+
+standing = foot_contacts(motion).feet
+print(f"the left foot stands {standing[:, 0].mean():.0%} of the time, the right one {standing[:, 1].mean():.0%}")
