@@ -147,11 +147,15 @@ def clip_pairs(
         return found
 
     found: list[_Pairs] = []
-    with threadpool_limits(1, "blas"), ThreadPoolExecutor(max(workers, 1)) as pool:
-        for done, pairs in enumerate(pool.map(row, range(len(clips)))):
-            found += pairs
-            if step is not None:
-                step(1 - ((len(clips) - 1 - done) / len(clips)) ** 2)
+    pool = ThreadPoolExecutor(max(workers, 1))
+    with threadpool_limits(1, "blas"):
+        try:
+            for done, pairs in enumerate(pool.map(row, range(len(clips)))):
+                found += pairs
+                if step is not None:
+                    step(1 - ((len(clips) - 1 - done) / len(clips)) ** 2)
+        finally:  # a user who stops it does not wait for all that was planned
+            pool.shutdown(cancel_futures=True)
     return _ordered(found)
 
 
