@@ -71,7 +71,8 @@ def _one_line(error: Exception | Warning | str, recording: Recording) -> str:
     path = getattr(recording.read, "args", [None])[0]
     for name in (f"{path}: ", f"{recording.file}: "):
         text = text.removeprefix(name)
-    return text.replace(str(path), recording.file) if path else text
+    text = text.replace(str(path), recording.file) if path else text
+    return text.encode(errors="replace").decode()  # names of files may be no text
 
 
 def renamed(clip: Clip, name: str, source: int) -> Clip:

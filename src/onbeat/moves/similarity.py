@@ -6,7 +6,7 @@ reads a rim of its neighbours, so that minima at its edge are those of the whole
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -70,47 +70,6 @@ def _block(a: Float32, b: Float32, start: tuple[int, int], limit: float, reach: 
     return _minima(table, top, left, inner_rows, inner_columns, limit, reach)
 
 
-def close_pairs(
-    a: Float32, b: Float32, limit: float, reach: int = 2, workers: int = 2, step: Callable[[float], None] | None = None
-) -> tuple[Ints, Ints, Float32]:
-    """Pairs (row of ``a``, row of ``b``) at a local minimum of their distance, nearer than ``limit``.
-
-    Parameters
-    ----------
-    a, b : (N, D) and (M, D) pose vectors. If ``b`` is ``a``, only the upper triangle is searched.
-    limit : largest distance (not squared).
-    reach : a minimum is the lowest among ``reach`` frames on each side in both directions.
-    workers : threads; the result does not depend on it.
-    step : called with the share done, 0…1.
-
-    Returns
-    -------
-    Row indices, column indices and distances, in order of row and column.
-
-    Examples
-    --------
-    >>> x = np.array([[0.0], [5.0], [9.0]], np.float32)
-    >>> y = np.array([[7.0], [4.8], [2.0]], np.float32)
-    >>> i, j, d = close_pairs(x, y, limit=1.0, reach=1)
-    >>> i.tolist(), j.tolist(), [round(float(one), 2) for one in d]
-    ([1], [1], [0.2])
-    """
-    same = a is b
-    starts = [(i, j) for i in range(0, len(a), BLOCK) for j in range(0, len(b), BLOCK) if not same or j + BLOCK > i]
-
-    def results() -> Iterator[tuple[Ints, Ints, Float32]]:
-        with threadpool_limits(1, "blas"), ThreadPoolExecutor(max(workers, 1)) as pool:
-            jobs = [pool.submit(_block, a, b, start, limit * limit, reach) for start in starts]
-            for done, job in enumerate(jobs):
-                yield job.result()
-                if step is not None:
-                    step((done + 1) / len(jobs))
-
-    first, second, distance = _ordered(list(results()))
-    keep = first < second if same else slice(None)
-    return first[keep], second[keep], distance[keep]
-
-
 def clip_pairs(
     clips: Sequence[Float32],
     limit: float,
@@ -119,7 +78,7 @@ def clip_pairs(
     workers: int = 2,
     step: Callable[[float], None] | None = None,
 ) -> tuple[Ints, Ints, Float32]:
-    """Close pairs of frames of several clips, each two clips searched for themselves.
+    """Pairs of frames at a local minimum of their distance, each two clips searched for themselves.
 
     The pairs of two clips depend on nothing but these two: a frame nearer than ``reach`` to an end of its clip, whose
     neighbours are not all known, is in no pair. So pairs that were found once can be kept when other clips change.
@@ -128,11 +87,22 @@ def clip_pairs(
     ----------
     clips : for each clip (n, D) pose vectors.
     wanted : tells whether clips a ≤ b are to be searched.
-    limit, reach, workers, step : as for :func:`close_pairs`.
+    limit : largest distance (not squared).
+    reach : a minimum is the lowest among ``reach`` frames on each side in both directions.
+    workers : threads; the result does not depend on it.
+    step : called with the share done, 0…1.
 
     Returns
     -------
     Frames of all clips in a row: the first of each pair, the second, later one, and distances, in order.
+
+    Examples
+    --------
+    >>> x = np.array([[9.0], [5.0], [1.0]], np.float32)
+    >>> y = np.array([[7.0], [4.8], [2.0]], np.float32)
+    >>> i, j, d = clip_pairs([x, y], limit=1.0, reach=1)
+    >>> i.tolist(), j.tolist(), d.astype(float).round(2).tolist()
+    ([1], [4], [0.2])
     """
     starts = np.concatenate(([0], np.cumsum([len(clip) for clip in clips]))).astype(np.int64)
     # matrix products of equal shapes on equal memory layouts give equal bytes
