@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
-from onbeat.dance import search
+from onbeat.dance import search, shiratori2006
 from onbeat.dance.greedy import greedy_path
 from onbeat.dance.lookahead import Roads
 from onbeat.dance.optimal import Problem, ValueToGo, best_path, score_path
+from onbeat.dance.shiratori2006 import Components, shiratori2006_path
 from onbeat.dance.variety import beam_path
 from onbeat.dance.walk import random_walk
 from onbeat.errors import PlanError
@@ -31,7 +33,7 @@ def can_be_danced(problem: Problem) -> bool:
     return brute_force(problem) > -np.inf
 
 
-def problems(count: int, seed: int, **options: int) -> list[Problem]:
+def problems(count: int, seed: int, **options: Any) -> list[Problem]:
     """``count`` random problems with a solution."""
     rng = np.random.default_rng(seed)
     found: list[Problem] = []
@@ -120,6 +122,53 @@ def test_greedy_is_a_path_and_no_better_than_the_optimum(small: list[Problem], h
 def test_greedy_that_sees_the_whole_song_finds_the_optimum(small: list[Problem]) -> None:
     for problem in small:
         assert greedy_path(problem, 10.0).score == pytest.approx(ValueToGo(problem).optimum, abs=TOLERANCE)
+
+
+def random_components(problem: Problem, rng: np.random.Generator) -> Components:
+    """Components as real ones are: no less than 0, and beats here and there."""
+    nodes, frames = len(problem.graph), problem.music.frames
+    beat = rng.uniform(0, 1, frames) * (rng.uniform(0, 1, frames) < 0.3)
+    return Components(rng.uniform(0, 1, nodes), rng.uniform(0, 2, nodes), beat, rng.uniform(0, 1, frames))
+
+
+@pytest.mark.parametrize("rhythm_only", [False, True])
+@pytest.mark.parametrize("horizon_s", [0.1, 0.3])
+def test_search_of_2006_is_a_path_and_no_better_than_the_optimum(
+    small: list[Problem], monkeypatch: pytest.MonkeyPatch, horizon_s: float, rhythm_only: bool
+) -> None:
+    rng, nothing, danced = np.random.default_rng(5), cast(Any, None), 0
+    for problem in small:
+        parts = random_components(problem, rng)
+        monkeypatch.setattr(shiratori2006, "components", lambda *_, parts=parts: parts)
+        try:
+            path = shiratori2006_path(problem, nothing, nothing, rhythm_only=rhythm_only, horizon_s=horizon_s)
+        except PlanError:
+            continue  # slowed down the clips last as long as the song, at their own rate they do not
+        check_path(problem, path)
+        assert set(problem.frames.rate[path.entries].tolist()) == {1.0}
+        assert path.score <= ValueToGo(problem).optimum + TOLERANCE
+        danced += 1
+    assert danced > 0.8 * len(small)
+
+
+def test_search_of_2006_that_sees_the_whole_song_finds_the_best_of_eq_11(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng, nothing = np.random.default_rng(6), cast(Any, None)
+    for drawn in problems(60, seed=6, rates=(1.0,)):
+        parts = random_components(drawn, rng)
+        eq_11 = replace(
+            drawn,
+            frames=replace(
+                drawn.frames,
+                stop_worth=np.zeros_like(drawn.frames.stop_worth),
+                intensity=parts.stop.astype(np.float32),
+            ),
+            music=replace(drawn.music, intensity=parts.beat.astype(np.float32)),
+            join_costs=np.zeros_like(drawn.join_costs),
+            seams=None,
+        )
+        monkeypatch.setattr(shiratori2006, "components", lambda *_, parts=parts: parts)
+        path = shiratori2006_path(eq_11, nothing, nothing, rhythm_only=True, horizon_s=10.0)
+        assert path.score == pytest.approx(brute_force(eq_11), abs=TOLERANCE)
 
 
 def test_walk_is_a_path_and_no_better_than_the_optimum(small: list[Problem]) -> None:

@@ -9,9 +9,10 @@ and of the best few of these the one is danced that fits the song's intensity be
     arg max_path  Σ_τ MC_intensity(t + τ; path) · ASC_intensity(t + τ)                              (Eq. 12)
 
 up to and over its first branch, where the next T seconds are looked at. Read so: the best few paths are those of
-different first branches, each with its best completion; completions alike in Eq. 11 are told apart by Eq. 12. ASC_beat
-is the degree of chord change at each beat (Eq. 6), so that a beat without any counts for nothing; a song without any
-chord change at all has beats of degree 1. Motion plays at its own rate, joins cost nothing, nothing forbids repeats.
+different first branches, each with its best completion, that come near the best; completions alike in Eq. 11 are told
+apart by Eq. 12. ASC_beat is the degree of chord change at each beat (Eq. 6), so that a beat without any counts for
+nothing; a song without any chord change at all has beats of degree 1. Motion plays at its own rate, joins cost nothing,
+nothing forbids repeats.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from onbeat._shapes import Array, Float32, Ints
 from onbeat.dance.greedy import HORIZON, follow
-from onbeat.dance.lookahead import IMPOSSIBLE, Branches, Roads
+from onbeat.dance.lookahead import Branches, Roads
 from onbeat.dance.optimal import Path, Problem, score_path
 from onbeat.dance.score import PHRASE
 from onbeat.errors import PlanError
@@ -34,7 +35,9 @@ from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 
 BEST_PATHS = 16
-"""How many of the best paths by Eq. 11 are compared by Eq. 12 ("several" in the paper)."""
+"""How many of the best paths by Eq. 11 are compared by Eq. 12 at most ("several" in the paper)."""
+NEAR = 0.95
+"""What part of the best path's Eq. 11 they reach at least: where few branches are, not all of them are best."""
 TIE = 1e-6
 """What Eq. 12 counts beside Eq. 11 where completions of one branch are alike."""
 
@@ -140,8 +143,7 @@ def _begin(roads: Roads, parts: Components, ahead: int) -> int:
     rhythm, intensity = parts.rhythm(0, ahead), parts.intensity(0, ahead)
     table = rhythm + TIE * intensity
     values = roads.values(0, table)
-    best = np.argsort(-values[0], kind="stable")[:BEST_PATHS]
-    best = best[values[0, best] > 0.5 * IMPOSSIBLE]
+    best = _best(values[0])
     sums = [_along(roads, (table, intensity, values), 0, int(f), 0) for f in best]
     return int(best[int(np.argmax(sums))])
 
@@ -152,13 +154,19 @@ def _chosen(roads: Roads, parts: Components, frame: int, t: int, ahead: int) -> 
     table = rhythm + TIE * intensity
     values = roads.values(t, table, roads.hold)
     found = roads.branches(t, frame, table, values)
-    best = np.argsort(-found.value, kind="stable")[:BEST_PATHS]
+    best = _best(found.value)
     before = np.concatenate(([0.0], np.cumsum(_diagonal(intensity, 0, frame, roads.left[frame] + 1))))
     sums = [
         before[wait] + (_entered(roads, (table, intensity, values), t, entry, wait) if entry >= 0 else 0.0)
         for wait, entry in zip(found.wait[best].tolist(), found.entry[best].tolist(), strict=True)
     ]
     return found, int(best[int(np.argmax(sums))])
+
+
+def _best(values: Array) -> Ints:
+    """Places of the ``BEST_PATHS`` highest values that are ``NEAR`` the highest."""
+    best = np.argsort(-values, kind="stable")[:BEST_PATHS]
+    return best[values[best] >= NEAR * values[best[0]]]
 
 
 def _diagonal(table: Array, k: int, frame: int, most: int) -> Array:
