@@ -7,7 +7,8 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion.retarget import retarget
-from onbeat.moves.build import build_library
+from onbeat.moves import manifest
+from onbeat.moves.build import Old, build_library
 from onbeat.moves.library import SHORTEST
 from persons import BVH, person, swinging
 
@@ -198,6 +199,16 @@ def test_options_are_part_of_what_is_kept(clips_folder, tmp_path):
     build_library([clips_folder], lib)
     build_library([clips_folder], tmp_path / "fresh")
     assert files(lib) == files(tmp_path / "fresh")
+
+
+def test_what_other_code_made_is_not_built_upon(clips_folder, tmp_path, monkeypatch):
+    made = []
+    monkeypatch.setattr(Old, "of", lambda folder, fps, of=Old.of: made.append(of(folder, fps)) or made[-1])
+    build_library([clips_folder], tmp_path / "lib")
+    monkeypatch.setattr(manifest, "method_digest", lambda: "other")
+    build_library([clips_folder], tmp_path / "lib")
+    build_library([clips_folder], tmp_path / "lib")
+    assert [old.found for old in made] == [None, None]
 
 
 def test_threads_do_not_change_a_byte(clips_folder, tmp_path):

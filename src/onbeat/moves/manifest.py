@@ -7,18 +7,18 @@ of ``rotations`` and ``root_positions``, ``poses`` rows of ``poses`` and ``inten
 from __future__ import annotations
 
 import hashlib
+from functools import cache
+from pathlib import Path
 from typing import Literal
 
 import msgspec
 
+import onbeat
 from onbeat.errors import LibraryError
 from onbeat.motion.skeleton import Skeleton
-from onbeat.moves import graph, library, poses
 
 FORMAT = "onbeat library"
 VERSION = 1
-METHOD = 1
-"""Raised when clips or joins are made in another way, so that stored ones are not mixed with them."""
 
 
 class Clips(msgspec.Struct, forbid_unknown_fields=True):
@@ -80,7 +80,7 @@ class Manifest(msgspec.Struct, forbid_unknown_fields=True):
 
     Parameters
     ----------
-    method : of the constants by which clips and joins were found (see :func:`method_digest`).
+    method : of the code by which clips and joins were made (see :func:`method_digest`).
     mirror, fps : the options of the build.
     reference : what all clips depend on, as of ``clips.Stage``.
     """
@@ -120,12 +120,12 @@ def encode(manifest: Manifest) -> bytes:
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
 
 
+@cache
 def method_digest() -> str:
-    """A digest of every constant that clips and joins depend on: with another value, stored ones are not used."""
-    constants = {
-        f"{module.__name__}.{name}": value
-        for module in (poses, graph, library)
-        for name, value in sorted(vars(module).items())
-        if name.isupper() and isinstance(value, int | float | dict)
-    }
-    return f"{METHOD}-{hashlib.sha256(repr(constants).encode()).hexdigest()[:16]}"
+    """A digest of the code that reads motion and makes clips and joins: what other code made is not mixed with it."""
+    root = Path(onbeat.__file__).parent
+    total = hashlib.sha256(onbeat.__version__.encode())
+    for room in ("formats", "motion", "moves"):
+        for file in sorted((root / room).glob("*.py")):
+            total.update(file.read_bytes())
+    return total.hexdigest()[:16]
