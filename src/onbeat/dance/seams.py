@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.special import ndtr
 
@@ -29,7 +30,7 @@ from onbeat.moves.library import MoveLibrary
 RATE = 60.0  # Hz at which joins are looked at
 SEEN = 1.2  # s on each side of a join in which movements are followed
 CHANGED = 0.45  # s on each side in which stops may change
-SPAN = 0.3  # s; the usual length of a blend
+SPAN = 0.35  # s; the usual length of a blend
 SAME = 0.03  # s; a stop moved by less is the same stop
 
 
@@ -44,8 +45,8 @@ class Seams:
     sign : float32 +1 or −1.
     """
 
-    indptr: Ints
-    at: Ints
+    indptr: NDArray[np.int32]
+    at: NDArray[np.int32]
     sign: Float32
 
 
@@ -72,7 +73,7 @@ def find_seams(library: MoveLibrary) -> Seams:
 
 
 def _hands(library: MoveLibrary) -> tuple[Array, Array, Ints]:
-    """Hand paths (n, 2, 3) in m and velocities in m/s at ``RATE``, smoothed, of all clips in a row, and their starts."""
+    """Paths (n, 2, 3) m and velocities m/s of the hands at ``RATE``, smoothed, all clips in a row; and their starts."""
     paths: list[Array] = []
     for clip in library.clips:
         motion = clip.motion if clip.motion.fps == RATE else clip.motion.at(_times(clip.motion.duration))

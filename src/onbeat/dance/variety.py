@@ -231,8 +231,9 @@ def _advance(
     return free_node
 
 
-def beam_path(problem: Problem, value: ValueToGo, beam: int = BEAM, repeat: float = REPEAT, start: int = -1) -> Path:
+def beam_path(problem: Problem, value: ValueToGo, beam: int | None = None, repeat: float | None = None, start: int = -1) -> Path:
     """The best of ``beam`` partial dances, led by ``value``, that (nearly) never shows a stretch of source twice."""
+    beam, repeat = beam or BEAM, REPEAT if repeat is None else repeat
     frames = value.total
     laid = problem.frames
     slots, width, words = problem.hold + 1, 2 * beam, (laid.blocks + 63) // 64

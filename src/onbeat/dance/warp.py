@@ -1,7 +1,7 @@
 """A small monotone time warp that puts stops on their beats, inside rate and speed limits.
 
-The warp τ takes dance time to plan time. It is piecewise linear on knots ``KNOT`` seconds apart, and is the solution of a
-quadratic programme over its values at the knots:
+The warp τ takes dance time to plan time. It is piecewise linear on knots ``KNOT`` seconds apart, and is the solution of
+a quadratic programme over its values at the knots:
 
     minimise   Σ_pairs (τ(b) − p)² / σ²  +  Σ_k (rate_{k+1} − rate_k)² · smooth  +  Σ_k (rate_k − 1)² · ease
     subject to τ(0) = 0, τ(T) = T and low_k ≤ rate_k ≤ high_k
@@ -64,7 +64,7 @@ class Warp:
         return np.diff(self.values) / np.diff(self.knots)
 
 
-def pair_stops(stops: Times, beats: Times, reach: float = REACH) -> list[tuple[int, int]]:
+def pair_stops(stops: Times, beats: Times, reach: float | None = None) -> list[tuple[int, int]]:
     """Pairs (stop, beat) in order, one to one, within ``reach`` seconds: as many and as near as can be.
 
     Maximises ``Σ (1 − (d / reach)²)`` over order-preserving pairings, by dynamic programming over neighbours.
@@ -74,6 +74,7 @@ def pair_stops(stops: Times, beats: Times, reach: float = REACH) -> list[tuple[i
     >>> pair_stops(np.array([0.4, 0.55, 1.1]), np.array([0.5, 1.0, 1.5]))
     [(1, 0), (2, 1)]
     """
+    reach = REACH if reach is None else reach
     n, m = len(stops), len(beats)
     best = np.zeros((n + 1, m + 1))
     gain = np.maximum(1 - ((stops[:, None] - beats[None, :]) / reach) ** 2, 0) if n and m else np.zeros((n, m))
@@ -162,7 +163,8 @@ def _solve(knots: Times, low: Array, high: Array, beats: Times, stops: Times) ->
     solver = piqp.SparseSolver()
     solver.settings.eps_abs = 1e-9
     solver.setup(
-        csc_matrix(square), np.asarray(linear), ends, np.array([0.0, knots[-1]]), csc_matrix(rate), low, high
+        csc_matrix(square), np.asarray(linear), ends, np.array([0.0, knots[-1]]), csc_matrix(rate), low, high,
+        knots - REACH, knots + REACH,
     )  # fmt: skip
     if solver.solve() != piqp.PIQP_SOLVED:
         raise PlanError("no time warp keeps its limits; play the plan as it is with --no-warp")
