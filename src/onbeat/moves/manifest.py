@@ -1,7 +1,10 @@
 """``library.json``: what is in the folder of a library; the arrays lie beside it.
 
-Version 1. ``data`` names the sub-folder of arrays. Clips follow each other in all arrays: clip k has ``frames`` rows
-of ``rotations`` and ``root_positions``, ``poses`` rows of ``poses`` and ``intensity``, and ``stops`` rows of ``stops``.
+Version 1. ``data`` names the sub-folder of arrays, NumPy ``.npy`` files without pickles. Clips follow each other in
+them: clip k has ``frames`` rows of ``rotations`` (float64, J × 4, wxyz) and ``root_positions`` (float64, 3, metres),
+``poses`` rows of ``poses`` (float32, D) and ``intensity`` (float64), and ``stops`` rows of ``stops`` (float64,
+seconds). ``first``, ``second`` (int64) and ``distance`` (float32) are the close pairs of graph frames, counted over all
+clips; ``indptr``, ``targets`` (int64) and ``costs`` (float32) the joins made of them, as of ``graph.MotionGraph``.
 """
 
 from __future__ import annotations
