@@ -1,10 +1,15 @@
-"""For all tests and examples: what onbeat keeps between runs is kept apart from the user's own, and removed."""
+"""For all tests and examples: the same cases in every run, and nothing kept in the user's own cache."""
 
 import os
 import shutil
 import tempfile
 
 import pytest
+from hypothesis import settings
+
+# Laws are tried on the same cases every time, and as long as it takes on a busy machine.
+settings.register_profile("onbeat", deadline=None, derandomize=True)
+settings.load_profile("onbeat")
 
 _MADE = pytest.StashKey[str]()
 
