@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ import pytest
 from onbeat.examples.body import Build
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
+from onbeat.moves.embedded import embedded_library
+from onbeat.moves.library import MoveLibrary
 
 
 @pytest.fixture(scope="session")
@@ -21,6 +24,21 @@ def data() -> Path:
     if not folder.is_dir():
         pytest.skip(f"no real data at {folder} (set ONBEAT_DATA)")
     return folder
+
+
+@pytest.fixture(scope="session")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A folder of this session's own where libraries are kept, so that the user's is neither read nor filled."""
+    with pytest.MonkeyPatch.context() as patch:
+        folder = tmp_path_factory.mktemp("cache")
+        patch.setenv("ONBEAT_CACHE", str(folder))
+        yield folder
+
+
+@pytest.fixture(scope="session")
+def troupe(cache: Path) -> MoveLibrary:
+    """The moves of the embedded troupe."""
+    return embedded_library()
 
 
 @pytest.fixture(scope="session")

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
+import os
 import sys
+from typing import NoReturn
 
 import cyclopts
 
@@ -44,12 +47,24 @@ for order, (name, (path, sentence, example)) in enumerate(COMMANDS.items()):
 
 
 def main() -> None:
-    """Run the command line; a user's error becomes one line on stderr and exit status 1."""
+    """Run the command line; a user's error becomes one line on stderr and exit status 1, of usage 2."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # names of files may hold what a terminal cannot show
+            stream.reconfigure(errors="backslashreplace")
     try:
         app()
+        sys.stdout.flush()
     except onbeat.OnbeatError as error:
-        print(f"onbeat: {error}", file=sys.stderr)  # noqa: T201
-        sys.exit(1)
+        _stop(str(error), 1)
+    except MemoryError:
+        _stop("not enough memory; choose a shorter stretch of the song or fewer clips", 1)
     except KeyboardInterrupt:
-        print("onbeat: stopped", file=sys.stderr)  # noqa: T201
-        sys.exit(130)
+        _stop("stopped", 130)
+    except BrokenPipeError:  # who reads our output has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+
+
+def _stop(message: str, status: int) -> NoReturn:
+    print(f"onbeat: {' '.join(message.split())}", file=sys.stderr)  # noqa: T201
+    sys.exit(status)

@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import os
+import shlex
 import shutil
+import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator
 from pathlib import Path
 from typing import Annotated, Literal
 
 import cyclopts
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from onbeat._shapes import Float32
-from onbeat.cli.progress import Stages
+from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.dance.make import LONGEST, Dance, make_dance
-from onbeat.errors import OnbeatError, PlanError
+from onbeat.errors import LibraryError, OnbeatError, PlanError
 from onbeat.files import make_folder
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 
 Sound = tuple[Float32, int]
+FPS = (1.0, 1000.0)
+EMBEDDED = 60.0  # seconds of the embedded song where no others are asked for
+TOLD = 5  # files left out that are told one by one
 
 
 def dance_command(
@@ -44,16 +51,14 @@ def dance_command(
 ) -> None:
     """Dance to a song with the moves of a folder of motion capture.
 
-    Without SONG the embedded song is played; without --moves the embedded troupe dances.
-
-    Example: ``onbeat dance song.mp3 --moves my_clips -o my_dance --seconds 60``
-
     Parameters
     ----------
     song
-        Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``.
+        Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``. Without one the embedded song is
+        played.
     moves
-        Motion files (BVH, ASF/AMC, npz), a folder of them, or a library made by ``onbeat moves build``.
+        Motion files (BVH, ASF/AMC, npz), a folder of them, or a library made by ``onbeat moves build``. Without it the
+        embedded troupe dances.
     output
         Folder for dance.bvh, dance.glb, dance.html, dance.json and song.json.
     seconds
@@ -78,10 +83,13 @@ def dance_command(
     json
         Print dance.json on stdout instead of a table.
     """
-    _check(seconds, start)
+    _check(seconds, start, seed, fps)
+    _check_output(output)
     if video:
         _require_video()
-    with Stages() as stages:
+    if moves is not None and not moves.exists():
+        raise LibraryError(f"no file or folder {moves}; give a folder of BVH, ASF/AMC or npz motion to --moves")
+    with warnings_as_lines(), Stages() as stages:
         heard, sound = _hear(song, start, seconds, seed, stages)
         library = _library(moves, mirror, stages)
         dance = make_dance(
@@ -89,19 +97,48 @@ def dance_command(
         )
         with _staged(output) as folder:
             _write(folder, dance, sound, video, stages)
+    _tell_left_out(library)
     if json:
         print(dance.document.to_json().decode(), end="")  # noqa: T201
         return
-    Console().print(_table(dance, output))
+    screen = Console()
+    screen.print(_table(dance, output))
     page = output / "dance.html"
-    Console().print(f"Look at it: open {page}\nThen try: {_next(song, moves, video)}", highlight=False, soft_wrap=True)
+    after = Text(f"Look at it: open {page}\nThen try: {_next(song, moves, video)}")
+    screen.print(after, soft_wrap=True)
 
 
-def _check(seconds: float | None, start: float) -> None:
+def _check(seconds: float | None, start: float, seed: int, fps: float | None) -> None:
     if seconds is not None and not 0 < seconds <= LONGEST:
         raise PlanError(f"--seconds {seconds:g}: give more than 0 and at most {LONGEST:g}")
-    if not start >= 0:
+    if not 0 <= start < math.inf:
         raise PlanError(f"--start {start:g}: give a second of the song, 0 or later")
+    if not 0 <= seed < 2**63:
+        raise PlanError(f"--seed {seed}: give a whole number from 0 to 2^63 - 1")
+    if fps is not None and not FPS[0] <= fps <= FPS[1]:
+        raise PlanError(f"--fps {fps:g}: give a rate from {FPS[0]:g} to {FPS[1]:g} frames a second")
+
+
+def _check_output(output: Path) -> None:
+    """Refuse a folder that cannot be written before the work, not after it."""
+    try:
+        there = next(place for place in (output, *output.absolute().parents) if place.exists())
+    except OSError as error:
+        raise OnbeatError(f"cannot write into {output}: {error.strerror}; choose another folder with -o") from None
+    if not there.is_dir():
+        raise OnbeatError(f"cannot write into {output}: {there} is not a folder; choose another folder with -o")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise OnbeatError(f"cannot write into {output}: no right to write in {there}; choose another folder with -o")
+
+
+def _tell_left_out(library: MoveLibrary) -> None:
+    """What is not in the library and what was assumed, a line each on stderr, of many the first."""
+    lines = [*library.notes, *(f"left out {problem}" for problem in library.problems)]
+    more = len(lines) - TOLD
+    if more > 1:
+        lines[TOLD:] = [f"… and {more} more; `onbeat moves build` tells all"]
+    for line in lines:
+        print(f"onbeat: {line}", file=sys.stderr)  # noqa: T201
 
 
 def _require_video() -> None:
@@ -139,8 +176,12 @@ def _hear_embedded(start: float, seconds: float | None, seed: int, stages: Stage
     from onbeat.music.audio import RATE, Audio
     from onbeat.music.listen import listen_samples
 
+    length = max(EMBEDDED, start + (seconds or 0.0))
+    if (seconds is None and start >= EMBEDDED) or length > LONGEST:
+        longest = EMBEDDED if seconds is None else LONGEST
+        raise PlanError(f"--start {start:g}: the embedded song lasts {longest:g} s; begin earlier")
     stages("composing", 0.0)
-    _, samples, rate = embedded_song(max(60.0, start + (seconds or 0.0)), seed)
+    _, samples, rate = embedded_song(length, seed)
     samples = samples[round(start * rate) :]
     samples = samples if seconds is None else samples[: round(seconds * rate)]
     stages("listening", 0.0)
@@ -161,21 +202,28 @@ def _library(moves: Path | None, mirror: bool, stages: Stages) -> MoveLibrary:
 
 
 @contextlib.contextmanager
-def _staged(output: Path) -> Iterator[Path]:
+def _staged(output: Path) -> Generator[Path]:
     """A folder beside the output whose files are moved into it when all are written, else removed."""
-    make_folder(output)
+    new = not output.exists()
+    folder: Path | None = None
     try:
+        make_folder(output)
         folder = Path(tempfile.mkdtemp(prefix=".dance-", dir=output))
-    except OSError as error:
-        raise OnbeatError(f"cannot write into {output}: {error.strerror}; choose another folder with -o") from None
-    try:
         yield folder
         for file in sorted(folder.iterdir()):
             os.replace(file, output / file.name)
     except OSError as error:
-        raise OnbeatError(f"cannot write into {output}: {error.strerror or error}") from None
+        raise OnbeatError(
+            f"cannot write into {output}: {error.strerror or error}; choose another folder with -o"
+        ) from None
+    except OnbeatError as error:
+        raise OnbeatError(str(error).replace(str(folder), str(output))) from None
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        if folder is not None:
+            shutil.rmtree(folder, ignore_errors=True)
+        if new:
+            with contextlib.suppress(OSError):  # goes only if nothing was put into it
+                output.rmdir()
 
 
 def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages) -> None:
@@ -207,7 +255,8 @@ def _table(dance: Dance, output: Path) -> Table:
     metrics = dance.document.metrics
     source = metrics["feet"]["skate_source"]
     before, after, variety = metrics["beats_before_warp"], metrics["beats"], metrics["variety"]
-    table = Table(title=f"{dance.song.title}: {dance.song.duration:.1f} s at {dance.song.tempo:.0f} BPM → {output}")
+    song = dance.song
+    table = Table(title=Text(f"{song.title}: {song.duration:.1f} s at {song.tempo:.0f} BPM → {output}"))
     table.add_column("figure")
     table.add_column("value", justify="right")
     table.add_column("what it says")
@@ -237,6 +286,7 @@ def _of(value: float | None) -> str:
 def _next(song: Path | None, moves: Path | None, video: bool) -> str:
     if song is None:
         return "onbeat dance YOUR_SONG.mp3"
+    name = shlex.quote(str(song))
     if moves is None:
-        return f"onbeat dance {song} --moves YOUR_CLIPS/"
-    return f"onbeat dance {song} --moves {moves}" + (" --rhythm-only" if video else " --video")
+        return f"onbeat dance {name} --moves YOUR_CLIPS/"
+    return f"onbeat dance {name} --moves {shlex.quote(str(moves))}" + (" --rhythm-only" if video else " --video")

@@ -14,6 +14,7 @@ import msgspec
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from onbeat.errors import MetricError, OnbeatError
 from onbeat.formats import read_motion
@@ -34,7 +35,7 @@ Scores = dict[str, float | None]
 def _song(path: Path) -> Song:
     """A song document, or the song heard now."""
     if path.suffix.lower() != ".json":
-        with Console(stderr=True).status(f"hearing {path.name}"):
+        with Console(stderr=True).status(Text(f"hearing {path.name}")):
             return listen(path)
     try:
         return Song.from_json(path.read_bytes(), str(path))

@@ -11,6 +11,7 @@ import cyclopts
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
+from rich.text import Text
 
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
@@ -22,7 +23,7 @@ def _hear(path: Path, method: str, start: float, seconds: float | None) -> Song:
     """Hear with a progress bar on stderr; a damaged file is warned of in one line there."""
     whole = max(audio_duration(path) - start, 0.0)
     screen = Console(stderr=True)
-    columns = (TextColumn("hearing {task.fields[song]}"), BarColumn(), TimeRemainingColumn())
+    columns = (TextColumn("hearing {task.fields[song]}", markup=False), BarColumn(), TimeRemainingColumn())
     with (
         Progress(*columns, console=screen, transient=True, disable=not screen.is_terminal) as bar,
         warnings.catch_warnings(record=True) as noted,
@@ -48,7 +49,7 @@ def _table(song: Song) -> Table:
         ("downbeats", f"{len(song.downbeats)}, the first at {first}"),
         ("heard by", song.method),
     ):
-        table.add_row(f"[dim]{name}[/dim]", value)
+        table.add_row(Text(name, "dim"), Text(value))  # a name may look like markup
     return table
 
 

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import sys
-import warnings
-from collections.abc import Callable, Generator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,9 +10,9 @@ import cyclopts
 import msgspec
 import numpy as np
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.errors import LibraryError
 from onbeat.moves.build import build_library
 from onbeat.moves.joins import joins_table
@@ -58,8 +55,15 @@ def build_command(
     """
     if fps is not None and not 0.1 <= fps <= 10000:
         raise LibraryError(f"{fps:g} frames a second cannot be; give a rate from 0.1 to 10000")
-    with building_progress() as step:
-        library = build_library(paths, output, mirror=mirror, fps=fps, step=step, workers=workers)
+    with warnings_as_lines(), Stages() as stages:
+        library = build_library(
+            paths,
+            output,
+            mirror=mirror,
+            fps=fps,
+            step=lambda what, share: stages("moves", share, what),
+            workers=workers,
+        )
     tell_problems(library)
     _print(library, output, as_json=json)
     print(f"next: onbeat dance SONG --moves {output}", file=sys.stderr)  # noqa: T201
@@ -81,20 +85,6 @@ def show_command(library: Path, *, json: Annotated[bool, cyclopts.Parameter(nega
     found = open_library(library)
     tell_problems(found)
     _print(found, library, as_json=json)
-
-
-@contextmanager
-def building_progress() -> Generator[Callable[[str, float], None], None, None]:
-    """A bar with the time left on stderr, where that is a screen; warnings become lines there afterwards."""
-    screen = Console(stderr=True)
-    columns = (TextColumn("{task.description:32.32}", markup=False), BarColumn(), TimeRemainingColumn())
-    with warnings.catch_warnings(record=True) as noted:
-        warnings.simplefilter("always", UserWarning)
-        with Progress(*columns, console=screen, transient=True, disable=not screen.is_terminal) as bar:
-            task = bar.add_task("opening the library", total=1.0)
-            yield lambda what, share: bar.update(task, description=what, completed=share)
-    for warning in noted:
-        print(f"onbeat: {warning.message}", file=sys.stderr)  # noqa: T201
 
 
 def tell_problems(library: MoveLibrary) -> None:
@@ -155,11 +145,12 @@ def _print(library: MoveLibrary, folder: Path, *, as_json: bool) -> None:
         core = f"{row['core']:.0%}"
         table.add_row(row["name"], f"{row['seconds']:.1f}", f"{row['fps']:g}", "unknown", stops, joins, core)
     screen = Console()
-    screen.print(table, markup=False)
+    screen.print(table, markup=False, emoji=False)
     error = document["joins_link_error"]
     fit = "" if error is None else f" of {error:.1f}° link error on average"
+    clips = "1 clip" if len(library.clips) == 1 else f"{len(library.clips)} clips"
     screen.print(
-        f"{len(library.clips)} clips, {library.seconds:.0f} s of recordings; {document['joins']} joins{fit}; "
+        f"{clips}, {library.seconds:.0f} s of recordings; {document['joins']} joins{fit}; "
         f"{document['core']:.0%} of the frames in the core",
         highlight=False,
         soft_wrap=True,

@@ -1,27 +1,44 @@
-"""Progress on stderr: what is done now, how far it is and how long it will take."""
+"""Progress on stderr: what is done now, how far it is and how long it will take; warnings as lines after it."""
 
 from __future__ import annotations
 
+import sys
+import warnings
+from collections.abc import Generator
+from contextlib import contextmanager
 from types import TracebackType
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 
+@contextmanager
+def warnings_as_lines() -> Generator[None]:
+    """What onbeat warns of becomes a line on stderr, each once, when all is done; what others warn of is not told."""
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("always", UserWarning)
+        yield
+    ours = [str(w.message) for w in noted if w.category.__module__.split(".")[0] == "onbeat"]
+    for line in dict.fromkeys(ours):
+        print(f"onbeat: {line}", file=sys.stderr)  # noqa: T201
+
+
 class Stages:
-    """A line of progress for each stage of a job, as it is reached.
+    """A line of progress for each stage of a job, as it is reached, where stderr is a screen.
 
     Called with a stage's name and its share done, 0…1; naming a new stage ends the one before.
     """
 
     def __init__(self) -> None:
+        screen = Console(stderr=True)
         self._progress = Progress(
             TextColumn("{task.description:<10}"),
             BarColumn(bar_width=30),
             TimeElapsedColumn(),
             TimeRemainingColumn(),
-            TextColumn("{task.fields[detail]}"),
-            console=Console(stderr=True),
+            TextColumn("{task.fields[detail]}", markup=False),  # names of files may look like markup
+            console=screen,
+            disable=not screen.is_terminal,
         )
         self._task: TaskID | None = None
         self._name = ""

@@ -89,7 +89,7 @@ def make_dance(
     """
     say = step or _silent
     song = _danceable(song)
-    fps = fps or max(clip.motion.fps for clip in library.clips)
+    fps = max(clip.motion.fps for clip in library.clips) if fps is None else fps
     if not 1.0 <= fps <= 1000.0:
         raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
     say("searching", 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -49,7 +50,7 @@ def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Rec
     found: dict[Path, tuple[Path, str]] = {}
     for path in paths:
         for file, label in _files(Path(path)):
-            found.setdefault(file.resolve(), (file, label))
+            found.setdefault(file.resolve(), (file, os.fsencode(label).decode(errors="replace")))
     if not found:
         places = ", ".join(str(path) for path in paths) or "no path"
         raise LibraryError(f"no motion files in {places}; give a folder of BVH, ASF/AMC or npz motion")

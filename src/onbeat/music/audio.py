@@ -11,6 +11,7 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import soundfile
@@ -54,7 +55,7 @@ class _FileSource:
 
     def __init__(self, path: Path) -> None:
         try:
-            self._file = soundfile.SoundFile(str(path))
+            self._file = soundfile.SoundFile(_encodable(path))
         except (soundfile.LibsndfileError, RuntimeError, TypeError) as error:
             reason = str(getattr(error, "error_string", error)).rstrip(".")
             raise AudioError(
@@ -86,6 +87,15 @@ class _FileSource:
                 file.seek(min(round(start * self.rate), file.frames))
             while len(part := file.read(PART, dtype="float32", always_2d=True)):
                 yield np.asarray(part, dtype=np.float32)
+
+
+def _encodable(path: Path) -> Any:
+    """A path as libsndfile takes it: as bytes where its name is not text."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        return os.fsencode(path)
+    return str(path)
 
 
 def _open(path: str | os.PathLike[str]) -> _FileSource | ContainerSource:

@@ -32,7 +32,8 @@ class ContainerSource:
         try:
             self._container: Any = self._av.open(str(path))
         except (self._av.FFmpegError, OSError) as error:
-            raise AudioError(f"{path}: not a sound file that can be read ({error})") from None
+            reason = error.strerror or error
+            raise AudioError(f"{path}: not a sound file that can be read ({reason})") from None
         if not self._container.streams.audio:
             raise AudioError(f"{path}: holds no sound track; expected a song")
         self._stream: Any = self._container.streams.audio[0]

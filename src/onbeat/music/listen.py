@@ -90,4 +90,4 @@ def listen(
         If the file cannot be read, is silent, or is shorter than two seconds.
     """
     song = _method(method)(_watched(read_blocks(path, start, seconds, RATE), RATE, str(path)), RATE, progress)
-    return replace(song, title=Path(path).stem)
+    return replace(song, title=os.fsencode(Path(path).stem).decode(errors="replace"))  # any bytes may name a file
