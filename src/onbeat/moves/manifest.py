@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import hashlib
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Literal
 
 import msgspec
 
-import onbeat
 from onbeat.errors import LibraryError
 from onbeat.motion.skeleton import Skeleton
 
@@ -126,8 +126,8 @@ def encode(manifest: Manifest) -> bytes:
 @cache
 def method_digest() -> str:
     """A digest of the code that reads motion and makes clips and joins: what other code made is not mixed with it."""
-    root = Path(onbeat.__file__).parent
-    total = hashlib.sha256(onbeat.__version__.encode())
+    root = Path(__file__).parents[1]
+    total = hashlib.sha256(version("onbeat").encode())
     for room in ("formats", "motion", "moves"):
         for file in sorted((root / room).glob("*.py")):
             total.update(file.read_bytes())
