@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from onbeat._shapes import Array, Float32, Ints
 from onbeat.dance.optimal import Problem, seam
@@ -54,7 +55,7 @@ class Roads:
     goal: Ints
     costs: Array
     entries: Ints
-    seams: tuple[Ints, Ints, Float32, Float32]
+    seams: tuple[NDArray[np.int32], NDArray[np.int32], Float32, Float32]
     beats: Float32
     hold: int
     frames: int

@@ -20,6 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from onbeat._shapes import Array, Float32, Ints
@@ -133,9 +134,9 @@ def _own_rate(problem: Problem) -> tuple[Roads, Ints]:
     return roads, shown
 
 
-def _no_seams(joins: int) -> tuple[Ints, Ints, Float32, Float32]:
+def _no_seams(joins: int) -> tuple[NDArray[np.int32], NDArray[np.int32], Float32, Float32]:
     """Joins that change no stops."""
-    return np.zeros(joins + 1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.float32), np.zeros(joins, np.float32)
+    return np.zeros(joins + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32), np.zeros(joins, np.float32)
 
 
 def _begin(roads: Roads, parts: Components, ahead: int) -> int:
