@@ -18,7 +18,7 @@ from onbeat.moves.library import Clip, MoveLibrary
 
 def clip(frames: int, stops: list[float], intensity: Any = None, source: int = 0, *, mirrored: bool = False) -> Clip:
     """A clip of which only what the search reads is there: stops, intensity and its length in graph frames."""
-    intensity = np.zeros(frames) if intensity is None else np.asarray(intensity, float)
+    intensity = np.ones(frames) if intensity is None else np.asarray(intensity, float)
     nothing: Any = None
     poses = np.zeros((frames, 1), np.float32)
     return Clip(nothing, "", source, mirrored, np.array(stops, float), intensity, poses)
@@ -68,7 +68,8 @@ def shown_worth(problem: Problem, t: int, f: int) -> float:
     """What it is worth to show virtual frame f at song frame t, read off the definition."""
     laid, music = problem.frames, problem.music
     beat = music.beat_worth[(t + Music.PAD) * FINE + laid.stop_shift[f]]
-    return float(laid.stop_worth[f]) * float(beat) + float(laid.intensity[f]) * float(music.intensity[t])
+    moved = float(laid.intensity[f]) * float(music.intensity[t]) - float(laid.idle[f])
+    return float(laid.stop_worth[f]) * float(beat) + moved
 
 
 def ways_on(problem: Problem, t: int, f: int) -> Iterator[tuple[int, float]]:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from onbeat.dance.frames import BLOCK, lay_frames
-from onbeat.dance.score import FINE
+from onbeat.dance.score import FINE, STANDING
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 from walkable import clip, graph
@@ -85,3 +85,13 @@ def test_intensity_is_ranked_over_the_library(library: MoveLibrary) -> None:
     laid = lay_frames(library, (1.0,))
     np.testing.assert_array_equal(np.argsort(laid.intensity), np.argsort(library.intensity))
     assert float(laid.intensity.std()) == pytest.approx(1, rel=1e-5)
+
+
+def test_standing_about_costs_and_dancing_does_not() -> None:
+    lively, still, pausing = np.ones(180), np.zeros(180), np.repeat([1.0, 0.0, 1.0], 60)
+    clips = tuple(clip(180, [], values, source=n) for n, values in enumerate((lively, still, pausing)))
+    idle = lay_frames(MoveLibrary(clips, graph([180] * 3, [(5, 200)])), (1.0,)).idle
+    np.testing.assert_array_equal(idle[:180], 0)
+    np.testing.assert_allclose(idle[180:360], STANDING / GRID, rtol=1e-6)
+    assert idle[360 + 90] > 0
+    assert idle[360] == idle[-1] == 0

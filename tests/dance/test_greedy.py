@@ -24,7 +24,7 @@ def lured(frames: int = 60) -> Problem:
     )
     library = MoveLibrary(clips, graph([30, 70, 70], [(15, 35), (15, 105)]))
     laid = lay_frames(library, (1.0,))
-    laid = replace(laid, intensity=library.intensity.astype(np.float32))
+    laid = replace(laid, intensity=library.intensity.astype(np.float32), idle=np.zeros_like(laid.idle))
     music = Music(np.zeros((frames + 2 * Music.PAD) * FINE, np.float32), np.ones(frames, np.float32), frames)
     return Problem(library.graph, laid, music, np.array([0.1, 0.2], np.float32), hold=5)
 

@@ -161,6 +161,7 @@ def test_search_of_2006_that_sees_the_whole_song_finds_the_best_of_eq_11(monkeyp
                 drawn.frames,
                 stop_worth=np.zeros_like(drawn.frames.stop_worth),
                 intensity=parts.stop.astype(np.float32),
+                idle=np.zeros_like(drawn.frames.idle),
             ),
             music=replace(drawn.music, intensity=parts.beat.astype(np.float32)),
             join_costs=np.zeros_like(drawn.join_costs),
