@@ -1,4 +1,4 @@
-"""How well dances meet their songs: the exact search beside the paper's greedy, our objective's greedy and a random walk.
+"""How well dances meet their songs: the exact search beside the paper's greedy, greedy on our objective and chance.
 
 Each method dances to each song with the same library; every figure is measured on the finished joints, before the time
 warp and after it. Medians over the songs.

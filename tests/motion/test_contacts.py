@@ -14,7 +14,9 @@ def stepping(fps: float, floor: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     def path(t):
         part = np.clip(((t % 1.0) - 0.6) / 0.4, 0, 1)
         ease = part**2 * (3 - 2 * part)
-        return np.stack((np.zeros_like(t), 0.4 * (np.floor(t) + ease), floor + 0.12 * np.sin(np.pi * part) ** 2), axis=1)
+        return np.stack(
+            (np.zeros_like(t), 0.4 * (np.floor(t) + ease), floor + 0.12 * np.sin(np.pi * part) ** 2), axis=1
+        )
 
     return t, np.stack((path(t), path(t + 0.5)), axis=1)
 

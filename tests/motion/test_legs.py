@@ -81,7 +81,11 @@ def test_a_small_move_of_the_target_moves_the_knee_little_even_near_straight():
 @pytest.fixture
 def body() -> Body:
     sides = ("left", "right")
-    names = ["hips", "chest", *(s + n for s in sides for n in ("arm", "forearm", "wrist", "upleg", "leg", "foot", "toe"))]
+    names = [
+        "hips",
+        "chest",
+        *(s + n for s in sides for n in ("arm", "forearm", "wrist", "upleg", "leg", "foot", "toe")),
+    ]
     parents = [-1, 0, 1, 2, 3, 0, 5, 6, 7, 1, 9, 10, 0, 12, 13, 14]
     offsets = np.zeros((16, 3))
     for first, x in ((2, -0.2), (9, 0.2)):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import sys
@@ -11,7 +12,7 @@ import cyclopts
 
 import onbeat
 
-app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__)
+app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__, suppress_keyboard_interrupt=False)
 # Named by path, so that a command is imported when it is called; its help stands here, so that a list needs none.
 COMMANDS = {
     "dance": (
@@ -60,9 +61,16 @@ def main() -> None:
         _stop("not enough memory; choose a shorter stretch of the song or fewer clips", 1)
     except KeyboardInterrupt:
         _stop("stopped", 130)
-    except BrokenPipeError:  # who reads our output has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(1)
+    except SystemError as error:
+        if not isinstance(error.__cause__, KeyboardInterrupt):
+            raise
+        _stop("stopped", 130)  # Ctrl-C while a compiled loop ran
+    except OSError as error:  # of files, onbeat's own errors tell; this is the screen, or the pipe, that is printed to
+        with contextlib.suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left to print would only fail again
+        if isinstance(error, BrokenPipeError):  # who reads our output has seen enough
+            sys.exit(1)
+        _stop(f"{error.filename or 'standard output'}: {error.strerror or error}", 1)
 
 
 def _stop(message: str, status: int) -> NoReturn:

@@ -6,14 +6,16 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from onbeat._shapes import Array, Ints
-from onbeat.dance.score import FINE, Frames, z_rank
+from onbeat.dance.score import FINE, STANDING, Frames, z_rank
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 
 RATES = (1.0, 0.87, 1.1)
 """Playback rates the search may choose from, clip seconds a second."""
+IDLE, PAUSE = 0.35, 0.6  # m/s of Eq. 2, smoothed over so many seconds, under which a body stands about
 BLOCK = 0.25
 """Seconds of source that count as shown or not shown."""
 
@@ -36,7 +38,7 @@ def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
             shown = np.minimum(np.round(np.arange(virtual) * rate).astype(np.int64), length - 1)
             base.append(start + shown)
             rate_of.append(np.full(virtual, rate))
-            seconds.append(np.arange(virtual) * rate / GRID)
+            seconds.append(np.arange(virtual, dtype=np.float64) * rate / GRID)
             left.append(virtual - 1 - np.arange(virtual))
             near = np.minimum(np.round(np.arange(length) / rate).astype(np.int64), virtual - 1)
             entry[number, start : start + length] = offset + near
@@ -59,9 +61,16 @@ def lay_frames(library: MoveLibrary, rates: Sequence[float] = RATES) -> Frames:
         stop_worth=worth,
         stop_shift=np.clip(shift, -FINE, FINE),
         intensity=z_rank(library.intensity)[all_base].astype(np.float32),
+        idle=(_idleness(library) * STANDING / GRID)[all_base].astype(np.float32),
         block=block[all_base],
         blocks=blocks,
     )
+
+
+def _idleness(library: MoveLibrary) -> Array:
+    """(N,) 1 where the hands have not moved between two stops for ``PAUSE`` seconds, 0 where they dance."""
+    calm = [gaussian_filter1d(clip.intensity, PAUSE * GRID, mode="nearest") for clip in library.clips]
+    return np.clip(1 - np.concatenate(calm) / IDLE, 0.0, 1.0)
 
 
 def _blocks(library: MoveLibrary) -> tuple[Ints, int]:

@@ -18,9 +18,11 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from onbeat._shapes import Array, Bools, Float32, Ints
 from onbeat.dance.score import FINE, Frames, Music
@@ -31,7 +33,7 @@ from onbeat.moves.graph import GRID, STRETCH, MotionGraph
 HOLD = round(STRETCH * GRID)
 """m: song frames danced at least after a join."""
 NEVER = np.float32(-1e30)
-ROWS_MEMORY = 256_000_000  # bytes of V held at once
+ROWS_MEMORY = 460_000_000  # bytes of V held at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +61,7 @@ class Problem:
         return np.unique(self.graph.targets, return_inverse=True)
 
     @cached_property
-    def entries(self) -> Ints:
+    def entries(self) -> NDArray[np.int32]:
         """(R, goals) int32 virtual frame of each goal at each rate; −1 where the clip ends too soon after it."""
         entry = self.frames.entry[:, self.goals[0]]
         return np.where(self.frames.left[entry] > self.hold, entry, -1).astype(np.int32)
@@ -74,14 +76,14 @@ class Problem:
         return (total[indptr[1:]] - total[indptr[:-1]]).astype(np.float32)
 
     @cached_property
-    def changes(self) -> tuple[Ints, Ints, Float32]:
+    def changes(self) -> tuple[NDArray[np.int32], NDArray[np.int32], Float32]:
         """The seams' arrays, empty ones where there are none."""
         if self.seams is None:
             return np.zeros(self.graph.join_count + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32)
         return self.seams.indptr, self.seams.at, self.seams.sign
 
     @cached_property
-    def arrays(self) -> tuple[Array | Ints | Float32, ...]:
+    def arrays(self) -> tuple[Any, ...]:
         """The arrays as the compiled loops take them."""
         g, f, m = self.graph, self.frames, self.music
         return (
@@ -95,6 +97,7 @@ class Problem:
             f.stop_worth,
             f.stop_shift.astype(np.int32),
             f.intensity,
+            f.idle,
             m.beat_worth,
             m.intensity,
             *self.changes,
@@ -103,11 +106,11 @@ class Problem:
 
 
 @njit(cache=True, boundscheck=False)
-def rewards(t, row, stops, worth, shift, motion, beats, music):
+def rewards(t, row, stops, worth, shift, motion, idle, beats, music):
     """Fill ``row`` with r(t, ·), the worth of showing each virtual frame at song frame t."""
     now = music[t]
     for f in range(len(row)):
-        row[f] = motion[f] * now
+        row[f] = motion[f] * now - idle[f]
     for s in stops:
         row[s] += worth[s] * beats[(t + 4) * FINE + shift[s]]
 
@@ -155,6 +158,7 @@ def _backward(
     worth,
     shift,
     motion,
+    idle,
     beats,
     music,
     seam_ptr,
@@ -169,14 +173,14 @@ def _backward(
     leap = np.empty(nodes, np.float32)
     for t in range(end - 1, begin - 1, -1):
         span = min(hold, frames - t)
-        rewards(t, row, stops, worth, shift, motion, beats, music)
+        rewards(t, row, stops, worth, shift, motion, idle, beats, music)
         # Sums along the diagonals, those at t from those at t + 1. Where a clip ends they run on into the next
         # and mean nothing, but no join leads there.
         for f in range(size - 1):
             sums[f] = sums[f + 1] + row[f]
         sums[size - 1] = row[size - 1]
         if t + hold < frames:
-            rewards(t + hold, gone, stops, worth, shift, motion, beats, music)
+            rewards(t + hold, gone, stops, worth, shift, motion, idle, beats, music)
             for f in range(size - hold):
                 sums[f] -= gone[f + hold]
         best_entries(sums, buffer[t + span - begin], span, entries, best, which)
@@ -263,7 +267,7 @@ def reward_along(problem: Problem, t: int, entries: Ints, span: int) -> Array:
     steps = np.arange(span)
     shown = np.asarray(entries, np.int64)[:, None] + steps
     worth = music.beat_worth[(t + steps + 4) * FINE + frames.stop_shift[shown]]
-    value = frames.stop_worth[shown] * worth + frames.intensity[shown] * music.intensity[t + steps]
+    value = frames.stop_worth[shown] * worth + frames.intensity[shown] * music.intensity[t + steps] - frames.idle[shown]
     return value.sum(axis=1, dtype=np.float64)
 
 

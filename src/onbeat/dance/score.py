@@ -20,12 +20,14 @@ from onbeat.moves.graph import GRID
 from onbeat.music.song import Song
 
 FINE = 8  # beat table entries per graph frame: 240 Hz
-HIT_WIDTH = 0.045
+HIT_WIDTH = 0.05
 """Seconds; a stop this far from its beat earns exp(−1/2) of it."""
-OFF_BEAT = 0.38
+OFF_BEAT = 0.42
 """What every stop costs; a stop on a beat earns 1 less this."""
-INTENSITY = 0.9
+INTENSITY = 0.75
 """λ: what a second costs or earns at one standard deviation of both intensities."""
+STANDING = 0.5
+"""What a second costs in which the hands do not dance: quiet music asks for small movements, not for none."""
 PHRASE = 0.75
 """Seconds, the smoothing of the song's intensity before it is ranked."""
 
@@ -64,7 +66,7 @@ def score_music(song: Song, *, rhythm_only: bool = False, beat_weights: Array | 
         worth[low:high] = np.maximum(worth[low:high], bump)
     intensity = np.zeros(frames)
     if not rhythm_only and len(song.intensity):
-        values = song.intensity_at((np.arange(frames) + 0.5) / GRID)
+        values = song.intensity_at((np.arange(frames, dtype=np.float64) + 0.5) / GRID)
         intensity = z_rank(gaussian_filter1d(values, PHRASE * GRID, mode="nearest")) * INTENSITY / GRID
     return Music((worth - OFF_BEAT).astype(np.float32), intensity.astype(np.float32), frames)
 
@@ -98,6 +100,7 @@ class Frames:
     stop_worth : (M,) weight of a stop shown at this frame, else 0.
     stop_shift : (M,) when in units of 1 / (GRID · FINE) s after the frame.
     intensity : (M,) z-scored rank of the motion's intensity.
+    idle : (M,) what showing the frame costs because the body only stands there.
     block : (M,) which stretch of the source is shown, for variety.
     blocks : how many stretches there are.
     """
@@ -110,6 +113,7 @@ class Frames:
     stop_worth: Float32
     stop_shift: Ints
     intensity: Float32
+    idle: Float32
     block: Ints
     blocks: int
 

@@ -23,7 +23,7 @@ from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 
-JOIN = 0.42
+JOIN = 0.52
 """What every join costs, in units of a stop on its beat."""
 ROUGH = 0.30
 """What a join of pose distance ``ALIKE`` costs besides; it grows with the square of the distance."""

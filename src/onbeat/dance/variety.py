@@ -81,6 +81,7 @@ def _advance(
     worth,
     shift,
     motion,
+    idle,
     beats,
     music,
     seam_ptr,
@@ -116,7 +117,7 @@ def _advance(
                 sums[f] = sums[f - 1] - old[f - 1]
             if t - 1 + hold < frames:
                 new = rings[(t - 1) % hold]
-                rewards(t - 1 + hold, new, stops, worth, shift, motion, beats, music)
+                rewards(t - 1 + hold, new, stops, worth, shift, motion, idle, beats, music)
                 for f in range(1, size - hold + 1):
                     sums[f] += new[f + hold - 1]
             sums[0] = 0.0  # no diagonal comes from before the first frame: its sum is made anew
@@ -231,7 +232,9 @@ def _advance(
     return free_node
 
 
-def beam_path(problem: Problem, value: ValueToGo, beam: int | None = None, repeat: float | None = None, start: int = -1) -> Path:
+def beam_path(
+    problem: Problem, value: ValueToGo, beam: int | None = None, repeat: float | None = None, start: int = -1
+) -> Path:
     """The best of ``beam`` partial dances, led by ``value``, that (nearly) never shows a stretch of source twice."""
     beam, repeat = beam or BEAM, REPEAT if repeat is None else repeat
     frames = value.total
@@ -275,7 +278,7 @@ def _first_sums(problem: Problem, rings: np.ndarray) -> np.ndarray:
     size = len(problem.frames)
     sums = np.zeros(size)
     for k in range(min(problem.hold, problem.music.frames)):
-        rewards(k, rings[k], *problem.arrays[6:12])
+        rewards(k, rings[k], *problem.arrays[6:13])
         sums[: size - k] += rings[k][k:]
     return sums
 

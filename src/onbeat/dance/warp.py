@@ -27,7 +27,7 @@ SLOWEST, FASTEST = 0.75, 1.35
 SPEED = 1.08
 """How much faster than in its plan the fastest hand may become."""
 KNOT = 1 / 15
-REACH = 0.24
+REACH = 0.14
 """Seconds from which a stop may be drawn to a beat."""
 SETTLED = 0.045
 """Seconds within which a stop is on its beat; pairs that cannot come so near are given up for the others' sake."""

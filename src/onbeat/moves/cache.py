@@ -102,5 +102,6 @@ def _kept(
     try:
         return build_recordings(recordings, folder, mirror=mirror, fps=fps, step=step, workers=workers)
     except StorageError as error:
-        warnings.warn(f"the library is not kept for the next time: {error}", CacheWarning, stacklevel=3)
+        reason = str(error).replace("choose another folder", "set ONBEAT_CACHE to another folder")
+        warnings.warn(f"the library is not kept for the next time: {reason}", CacheWarning, stacklevel=3)
     return assemble(recordings, mirror=mirror, fps=fps, step=step, workers=workers)

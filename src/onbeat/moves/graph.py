@@ -21,6 +21,8 @@ MARGIN = 0.25
 """Seconds of its clip that a join needs on each side, for the blend."""
 STRETCH = 0.8
 """Seconds that are danced at least between two joins."""
+LOOP = 3.0
+"""Seconds that a join may not go back within a clip: it would show again what was shown a moment ago."""
 FAN = 48
 """Joins kept at most from one frame, the smoothest first."""
 
@@ -46,15 +48,16 @@ class MotionGraph:
         """A graph from close pairs of frames, each used in both directions where there is room.
 
         A join leaves a frame that has ``MARGIN`` seconds of its clip after it, and enters one that has ``MARGIN``
-        before it and ``STRETCH`` + ``MARGIN`` after it. Joins to nearly the same time of the same clip (within
-        ``STRETCH``) are left out, and all but the ``FAN`` nearest from each frame.
+        before it and ``STRETCH`` + ``MARGIN`` after it. Joins in one clip that go back less than ``LOOP`` seconds or
+        forward less than ``STRETCH`` are left out, and all but the ``FAN`` nearest from each frame.
         """
         frames = len(clip_of)
         after, before = _room(clip_of)
         source, target = np.concatenate((first, second)), np.concatenate((second, first))
         cost = np.concatenate((distance, distance)).astype(np.float32)
         margin, stretch = round(MARGIN * GRID), round(STRETCH * GRID)
-        near = (clip_of[source] == clip_of[target]) & (np.abs(source - target) < stretch)
+        back, loop = source - target, round(LOOP * GRID)
+        near = (clip_of[source] == clip_of[target]) & (back > -stretch) & (back < loop)
         keep = (after[source] >= margin) & (before[target] >= margin) & (after[target] >= stretch + margin) & ~near
         source, target, cost = source[keep], target[keep], cost[keep]
         order = np.lexsort((target, cost, source))
