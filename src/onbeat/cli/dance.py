@@ -17,6 +17,7 @@ import cyclopts
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
+from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Float32
 from onbeat.cli.progress import Stages, warnings_as_lines
@@ -89,7 +90,7 @@ def dance_command(
         _require_video()
     if moves is not None and not moves.exists():
         raise LibraryError(f"no file or folder {moves}; give a folder of BVH, ASF/AMC or npz motion to --moves")
-    with warnings_as_lines(), Stages() as stages:
+    with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
         heard, sound = _hear(song, start, seconds, seed, stages)
         library = _library(moves, mirror, stages)
         dance = make_dance(

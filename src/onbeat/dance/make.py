@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from threadpoolctl import threadpool_limits
+
 from onbeat._shapes import Times
 from onbeat.dance.document import VERSION, DanceDocument, JoinDocument, MoveDocument
 from onbeat.dance.plan import DancePlan
@@ -92,19 +94,22 @@ def make_dance(
     fps = max(clip.motion.fps for clip in library.clips) if fps is None else fps
     if not 1.0 <= fps <= 1000.0:
         raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
-    say("searching", 0.0)
-    found = search(library, song, method=method, rhythm_only=rhythm_only, seed=seed, step=lambda s: say("searching", s))
-    clips = [clip.motion for clip in library.clips]
-    say("dancing", 0.0)
-    first = realise(clips, found.plan, fps)
-    features = hand_features(first.motion)
-    done, fitted = first, None
-    if warp:
-        say("warping", 0.4)
-        fitted = fit_warp(found.plan, features.body_stops, song.beats, features.times, features.speeds.max(axis=1))
-        done = realise(clips, found.plan, fps, fitted)
-    say("measuring", 0.7)
-    measured = measure(library, song, found, first, done, fitted, seed)
+    with threadpool_limits(1, "blas"):  # products of matrices on more threads differ in their last bits
+        say("searching", 0.0)
+        found = search(
+            library, song, method=method, rhythm_only=rhythm_only, seed=seed, step=lambda s: say("searching", s)
+        )
+        clips = [clip.motion for clip in library.clips]
+        say("dancing", 0.0)
+        first = realise(clips, found.plan, fps)
+        features = hand_features(first.motion)
+        done, fitted = first, None
+        if warp:
+            say("warping", 0.4)
+            fitted = fit_warp(found.plan, features.body_stops, song.beats, features.times, features.speeds.max(axis=1))
+            done = realise(clips, found.plan, fps, fitted)
+        say("measuring", 0.7)
+        measured = measure(library, song, found, first, done, fitted, seed)
     document = _document(library, song, found, done, fitted, measured, fps, seed, method)
     say("measuring", 1.0)
     return Dance(done.motion, song, found.plan, fitted, done, found, measured.stops, document)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Float32
 from onbeat.errors import AudioError
@@ -34,6 +35,11 @@ def _method(name: str) -> Method:
 
         return listen_shiratori2006
     raise AudioError(f"no listening method {name!r}; there are {', '.join(METHODS)}")
+
+
+def _same_bits() -> threadpool_limits:
+    """Products of matrices on one thread: on more, their last bits differ, and with them those of the dance."""
+    return threadpool_limits(1, "blas")
 
 
 def _watched(blocks: Iterable[Float32], rate: int, name: str) -> Iterator[Float32]:
@@ -63,9 +69,9 @@ def listen_samples(audio: Audio, method: str = METHODS[0], title: str = "", prog
     """
     block = 20 * audio.rate
     blocks = (audio.samples[begin : begin + block] for begin in range(0, len(audio.samples), block))
-    return replace(
-        _method(method)(_watched(blocks, audio.rate, title or "the sound"), audio.rate, progress), title=title
-    )
+    with _same_bits():
+        song = _method(method)(_watched(blocks, audio.rate, title or "the sound"), audio.rate, progress)
+    return replace(song, title=title)
 
 
 def listen(
@@ -89,5 +95,6 @@ def listen(
     AudioError
         If the file cannot be read, is silent, or is shorter than two seconds.
     """
-    song = _method(method)(_watched(read_blocks(path, start, seconds, RATE), RATE, str(path)), RATE, progress)
+    with _same_bits():
+        song = _method(method)(_watched(read_blocks(path, start, seconds, RATE), RATE, str(path)), RATE, progress)
     return replace(song, title=os.fsencode(Path(path).stem).decode(errors="replace"))  # any bytes may name a file
