@@ -62,12 +62,17 @@ def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Rec
 
 
 def _files(path: Path) -> list[tuple[Path, str]]:
-    """The files of a path and what they are called relative to it."""
+    """The files of a path, of a folder all but the dances that onbeat made there, and what they are called in it."""
     if path.is_dir():
-        return [(file, file.relative_to(path).as_posix()) for file in motion_files(path)]
+        return [(file, file.relative_to(path).as_posix()) for file in motion_files(path) if not _is_made(file)]
     if not path.exists():
         raise LibraryError(f"no file or folder {path}; give a folder of BVH, ASF/AMC or npz motion")
     return [(path, path.name)]
+
+
+def _is_made(file: Path) -> bool:
+    """Whether a file is a dance that was made of clips: it is none itself, should it lie in their folder."""
+    return file.name == "dance.bvh" and (file.parent / "dance.json").is_file()
 
 
 def _names(labels: list[str]) -> list[str]:
