@@ -149,3 +149,15 @@ def test_zero_length(tmp_path: Path) -> None:
     path = write(tmp_path / "song.wav", np.zeros(0))
     with pytest.raises(AudioError, match="0 samples"):
         read_audio(os.fspath(path))
+
+
+@pytest.mark.parametrize("channels", [1, 2, 6])
+def test_high_rates_can_be_brought_down_as_they_stream(tmp_path: Path, sound: np.ndarray, channels: int) -> None:
+    fast = np.repeat(mix(4.0, [(at, click()) for at in CLICKS], rate=96000).samples[:, None], channels, axis=1)
+    path = write(tmp_path / "fast.wav", fast, 96000)
+    samples, rate = read_stereo(path, highest=48000)
+    assert rate == 48000
+    assert samples.shape == (4 * 48000, channels if channels < 3 else 1)
+    assert np.abs(loudest_moments(samples[:, 0], rate) - CLICKS).max() < 0.002
+    assert read_stereo(path)[1] == 96000
+    assert read_stereo(write(tmp_path / "slow.wav", sound), highest=48000)[1] == 44100

@@ -30,6 +30,7 @@ from onbeat.music.song import Song
 Sound = tuple[Float32, int]
 FPS = (1.0, 1000.0)
 EMBEDDED = 60.0  # seconds of the embedded song where no others are asked for
+SOUND = 48000  # Hz, the highest rate that pages and films hold
 TOLD = 5  # files left out that are told one by one
 
 
@@ -166,7 +167,7 @@ def _hear(song: Path | None, start: float, seconds: float | None, seed: int, sta
             "choose a stretch with --start and --seconds"
         )
     heard = listen(song, start=start, seconds=wanted, progress=lambda s: stages("listening", s / wanted))
-    return heard, read_stereo(song, start, wanted)
+    return heard, read_stereo(song, start, wanted, highest=SOUND)
 
 
 def _hear_embedded(start: float, seconds: float | None, seed: int, stages: Stages) -> tuple[Song, Sound]:

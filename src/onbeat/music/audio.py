@@ -201,13 +201,25 @@ def read_audio(
     return Audio(np.concatenate(list(read_blocks(path, start, seconds, rate))), rate)
 
 
-def read_stereo(path: str | os.PathLike[str], start: float = 0.0, seconds: float | None = None) -> tuple[Float32, int]:
-    """Samples (N, 1 or 2) as they are in the file and their rate; more channels are mixed to mono."""
-    blocks = list(_native_blocks(path, start, seconds))
-    samples = np.concatenate([block for block, _ in blocks])
-    if samples.shape[1] > 2:
-        samples = samples.mean(axis=1, keepdims=True, dtype=np.float32)
-    return samples, blocks[0][1]
+def read_stereo(
+    path: str | os.PathLike[str], start: float = 0.0, seconds: float | None = None, highest: int | None = None
+) -> tuple[Float32, int]:
+    """Samples (N, 1 or 2) as they are in the file and their rate; more channels are mixed to mono.
+
+    Rates above ``highest`` are brought down to it as the sound streams by, so that long songs fit in memory.
+    """
+    parts: list[Float32] = []
+    rate, stream = 0, None
+    for block, native in _native_blocks(path, start, seconds):
+        part = block if block.shape[1] <= 2 else block.mean(axis=1, keepdims=True, dtype=np.float32)
+        rate = native if highest is None else min(native, highest)
+        if rate < native:
+            stream = stream or soxr.ResampleStream(native, rate, part.shape[1], dtype="float32")
+            part = stream.resample_chunk(np.ascontiguousarray(part))
+        parts.append(part)
+    if stream is not None:
+        parts.append(stream.resample_chunk(np.zeros((0, parts[0].shape[1]), np.float32), last=True))
+    return np.concatenate(parts), rate
 
 
 def audio_duration(path: str | os.PathLike[str]) -> float:
