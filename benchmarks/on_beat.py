@@ -40,7 +40,7 @@ COLUMNS = {
     "joins/min": ("variety", "joins_per_minute"),
     "link°": ("smoothness", "link_error_deg"),
     "twice s": ("variety", "repeated_cells_s"),
-    "strict s": ("variety", "repeated_cells_strict_s"),
+    "strict s": ("variety", "repeated_cells_s_strict"),
     "rate lo": ("warp", "playback_min"),
     "rate hi": ("warp", "playback_max"),
     "peak": ("warp", "peak_hand_speed_ratio"),

@@ -2,9 +2,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from onbeat.moves.graph import FAN, GRID, MARGIN, STRETCH, MotionGraph
+from onbeat.moves.graph import FAN, GRID, LOOP, MARGIN, STRETCH, MotionGraph
 
-MARGIN_FRAMES, STRETCH_FRAMES = round(MARGIN * GRID), round(STRETCH * GRID)
+MARGIN_FRAMES, STRETCH_FRAMES, LOOP_FRAMES = round(MARGIN * GRID), round(STRETCH * GRID), round(LOOP * GRID)
 
 
 def graph_of(lengths, pairs):
@@ -40,8 +40,15 @@ def test_joins_leave_and_enter_only_where_there_is_room():
 def test_nearly_the_same_time_of_one_clip_is_no_join():
     near = (40, 40 + STRETCH_FRAMES - 1)
     far = (40, 40 + STRETCH_FRAMES)
-    assert joins(graph_of([200], [near])) == set()
-    assert joins(graph_of([200], [far])) == {far, far[::-1]}
+    assert joins(graph_of([300], [near])) == set()
+    assert joins(graph_of([300], [far])) == {far}
+
+
+def test_a_join_does_not_go_straight_back():
+    soon = (40, 40 + LOOP_FRAMES - 1)
+    late = (40, 40 + LOOP_FRAMES)
+    assert joins(graph_of([300], [soon])) == {soon}
+    assert joins(graph_of([300], [late])) == {late, late[::-1]}
 
 
 def test_the_nearest_are_kept():

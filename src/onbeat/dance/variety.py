@@ -5,7 +5,7 @@
 Showing a stretch of source again costs ``REPEAT``, which makes the score depend on the past, so that dynamic
 programming no longer finds the best path. A beam of partial dances is kept instead, each with the set of stretches it
 has shown, ranked by what they have earned plus the exact value to go *without* the rule: a bound that is never too
-low. Of partial dances that reach the same frame at the same time only the best is kept.
+low. Of partial dances that reach the same frame at the same time only the best few are kept.
 """
 
 from __future__ import annotations
@@ -15,8 +15,10 @@ from numba import njit
 
 from onbeat.dance.optimal import Path, Problem, ValueToGo, best_entries, rewards, score_path, seam
 
-BEAM = 200
+BEAM = 600
 """Partial dances kept at each song frame."""
+ALIKE = 3
+"""Partial dances kept that reach one frame at one time: they have shown different things on the way."""
 REPEAT = 3.0
 """What showing one stretch of source (a quarter of a second) again costs: more than any beat can earn there."""
 
@@ -54,6 +56,24 @@ def _highest(values, count, keep):
         if total > keep:  # many that are alike at the top are all kept: a beam must not lose its best
             return low + (b + 1 if total > bins[b] else b - 0.5) / scale
     return low
+
+
+@njit(cache=True)
+def _seat(frame, mark, earned, gains, free, stamp, place, held):
+    """The row for a partial dance that reaches ``frame``: a free one, that of the worst there, or −1 if it is worse."""
+    if stamp[frame] != mark:
+        stamp[frame], held[frame] = mark, 0
+    if held[frame] < ALIKE:
+        if free >= len(gains):
+            return -1
+        place[frame, held[frame]] = free
+        held[frame] += 1
+        return free
+    worst = place[frame, 0]
+    for k in range(1, ALIKE):
+        if gains[place[frame, k]] < gains[worst]:
+            worst = place[frame, k]
+    return worst if gains[worst] < earned else -1
 
 
 @njit(cache=True, boundscheck=False)
@@ -101,7 +121,8 @@ def _advance(
     size, goals = len(base), entries.shape[1]
     best, which = np.empty(goals, np.float32), np.empty(goals, np.int32)
     stamp = np.full(size, -1, np.int64)
-    place = np.zeros(size, np.int64)
+    place = np.zeros((size, ALIKE), np.int64)
+    held = np.zeros(size, np.int64)
     fan = 1
     for i in range(len(indptr) - 1):
         fan = max(fan, indptr[i + 1] - indptr[i])
@@ -165,8 +186,7 @@ def _advance(
         arrival = (t + span) % slots
         m = count[arrival]
         for s in range(m):
-            stamp[where[arrival, s]] = t
-            place[where[arrival, s]] = s
+            _seat(where[arrival, s], t, np.inf, gain[arrival], s, stamp, place, held)
         for c in range(many):
             if candidates[c] < threshold:
                 continue
@@ -174,16 +194,10 @@ def _advance(
             reach = g + span
             after = buffer[t + span - begin, reach]
             earned = candidates[c] - after
-            if stamp[reach] == t:
-                row = place[reach]
-                if gain[arrival, row] >= earned:
-                    continue
-            elif m < width:
-                row = m
-                m += 1
-                stamp[reach], place[reach] = t, row
-            else:
+            row = _seat(reach, t, earned, gain[arrival], m, stamp, place, held)
+            if row < 0:
                 continue
+            m = max(m, row + 1)
             source = origin[c]
             for w in range(words):
                 scratch[0, w] = history[slot, source, w]
@@ -201,8 +215,7 @@ def _advance(
         slot_next = (t + 1) % slots
         m = count[slot_next]
         for s in range(m):
-            stamp[where[slot_next, s]] = frames + t
-            place[where[slot_next, s]] = s
+            _seat(where[slot_next, s], frames + t, np.inf, gain[slot_next], s, stamp, place, held)
         for s in range(n):
             f = where[slot, s]
             if left[f] == 0 and t + 1 < frames:
@@ -212,16 +225,10 @@ def _advance(
             fresh = t > 0 and block[f] != block[f - 1]  # f is shown now, and f − 1 was shown before it
             if fresh and _shown(history[slot], s, block[f]):
                 earned -= repeat
-            if stamp[g] == frames + t:
-                row = place[g]
-                if gain[slot_next, row] >= earned:
-                    continue
-            elif m < width:
-                row = m
-                m += 1
-                stamp[g], place[g] = frames + t, row
-            else:
+            row = _seat(g, frames + t, earned, gain[slot_next], m, stamp, place, held)
+            if row < 0:
                 continue
+            m = max(m, row + 1)
             where[slot_next, row], gain[slot_next, row], node[slot_next, row] = g, earned, node[slot, s]
             for w in range(words):
                 history[slot_next, row, w] = history[slot, s, w]

@@ -25,6 +25,7 @@ _LIMBS = {"shoulder": "elbow", "elbow": "wrist", "wrist": "hand", "hip": "knee",
 _ABOVE = {"wrist": "elbow", "hand": "wrist", "toe": "ankle", "head": "neck", "neck": "chest", "spine": "hips"}
 _TRUNK = ("hips", "spine", "chest", "neck", "head")
 NEAR_FLOOR = 0.03
+SLOW = 0.25  # m/s under which the lowest joint of a foot stands
 """Metres of floor height that are left alone: joints of a foot are above its sole by as much."""
 
 
@@ -70,11 +71,23 @@ def grounded(motion: Motion, body: Body | None = None, near: float = NEAR_FLOOR)
 
 
 def floor_height(motion: Motion, body: Body | None = None) -> float:
-    """Metres, the height on which the feet stand: the 5th percentile over time of the lowest joint of the feet."""
+    """Metres, the height on which the feet stand.
+
+    The median height of the feet's lowest joint over the frames in which that joint hardly moves (slower than
+    ``SLOW`` m/s); the 5th percentile over all frames where there is no such moment. A few dips under the floor, common
+    in captured motion, and time spent in the air do not move it.
+    """
     body = Body.of(motion.skeleton) if body is None else body
     ankles = set(body.indices("left_ankle", "right_ankle").tolist())
     feet = [j for j in range(len(motion.skeleton)) if ankles & set(ancestors(motion.skeleton, j))]
-    return float(np.percentile(motion.positions[:, feet, 2].min(1), 5))
+    points = motion.positions[:, feet]
+    lowest = points[..., 2].argmin(axis=1)
+    height = points[np.arange(len(motion)), lowest, 2]
+    if len(motion) < 3:
+        return float(height.min())
+    speeds = np.linalg.norm(np.gradient(points, axis=0), axis=-1)[np.arange(len(motion)), lowest] * motion.fps
+    standing = speeds < SLOW
+    return float(np.median(height[standing])) if standing.mean() > 0.05 else float(np.percentile(height, 5))
 
 
 def stands_in_rest(body: Body) -> bool:

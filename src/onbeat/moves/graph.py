@@ -21,7 +21,7 @@ MARGIN = 0.25
 """Seconds of its clip that a join needs on each side, for the blend."""
 STRETCH = 0.8
 """Seconds that are danced at least between two joins."""
-LOOP = 3.0
+LOOP = 4.0
 """Seconds that a join may not go back within a clip: it would show again what was shown a moment ago."""
 FAN = 48
 """Joins kept at most from one frame, the smoothest first."""
