@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import sys
-import warnings
-from collections.abc import Generator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from onbeat.cli.progress import warnings_as_lines
 from onbeat.errors import MetricError, OnbeatError
 from onbeat.formats import read_motion
 from onbeat.metrics import beats, feet, intensity, smoothness
@@ -41,16 +39,6 @@ def _song(path: Path) -> Song:
         return Song.from_json(path.read_bytes(), str(path))
     except OSError as error:
         raise OnbeatError(f"cannot read {path}: {error.strerror}; give a song or what `onbeat listen` wrote") from None
-
-
-@contextmanager
-def _warnings_as_lines() -> Generator[None, None, None]:
-    """What readers warn of becomes a line on stderr."""
-    with warnings.catch_warnings(record=True) as noted:
-        warnings.simplefilter("always", UserWarning)
-        yield
-    for warning in noted:
-        print(f"onbeat: {warning.message}", file=sys.stderr)  # noqa: T201
 
 
 def _unplanned(scores: Scores) -> Scores:
@@ -148,7 +136,7 @@ def evaluate_command(
     """
     if not start >= 0:
         raise MetricError(f"--start is {start:g} s; give a second of the song, 0 or later")
-    with _warnings_as_lines():
+    with warnings_as_lines():
         danced, song = read_motion(motion, fps), _song(music)
     scores = evaluate_motion(danced, song.cut(start, max(song.duration - start, 0.0)), seed)
     if json:

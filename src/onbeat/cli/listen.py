@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 from typing import Annotated
 
@@ -13,10 +12,11 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 from rich.text import Text
 
+from onbeat.cli.progress import warnings_as_lines
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
 from onbeat.music import METHODS, Song, listen
-from onbeat.music.audio import AudioWarning, audio_duration, read_audio, read_stereo
+from onbeat.music.audio import audio_duration, read_audio, read_stereo
 
 
 def _hear(path: Path, method: str, start: float, seconds: float | None) -> Song:
@@ -25,15 +25,11 @@ def _hear(path: Path, method: str, start: float, seconds: float | None) -> Song:
     screen = Console(stderr=True)
     columns = (TextColumn("hearing {task.fields[song]}", markup=False), BarColumn(), TimeRemainingColumn())
     with (
+        warnings_as_lines(),
         Progress(*columns, console=screen, transient=True, disable=not screen.is_terminal) as bar,
-        warnings.catch_warnings(record=True) as noted,
     ):
-        warnings.simplefilter("always", AudioWarning)
         task = bar.add_task("", total=min(seconds or whole, whole) or None, song=path.name)
-        song = listen(path, method, start, seconds, lambda heard: bar.update(task, completed=heard))
-    for warning in noted:
-        print(f"onbeat: {warning.message}", file=sys.stderr)  # noqa: T201
-    return song
+        return listen(path, method, start, seconds, lambda heard: bar.update(task, completed=heard))
 
 
 def _table(song: Song) -> Table:
