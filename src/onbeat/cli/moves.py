@@ -25,7 +25,7 @@ VERSION = 1
 
 @moves_app.command(name="build")
 def build_command(
-    paths: Annotated[list[Path], cyclopts.Parameter(negative=())],
+    paths: Annotated[list[Path], cyclopts.Parameter(negative=(), json_list=False)],
     /,
     *,
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])],
