@@ -8,7 +8,7 @@ import pytest
 from onbeat.dance.frames import lay_frames
 from onbeat.dance.optimal import Problem, ValueToGo, best_path
 from onbeat.dance.score import FINE, Music
-from onbeat.dance.variety import beam_path
+from onbeat.dance.variety import REPEAT, beam_path
 from onbeat.moves.library import MoveLibrary
 from walkable import blocks_shown, clip, graph, random_problem
 
@@ -62,8 +62,9 @@ def test_a_wider_beam_is_hardly_ever_worse() -> None:
         if not np.any(problem.frames.left >= 20):
             continue
         value = ValueToGo(problem)
-        narrow.append(beam_path(problem, value, beam=2).score)
-        wide.append(beam_path(problem, value, beam=200).score)
+        for earned, beam in ((narrow, 2), (wide, 200)):
+            path = beam_path(problem, value, beam=beam)
+            earned.append(path.score - REPEAT * repeats(problem, path))
     assert np.mean(wide) >= np.mean(narrow)
 
 

@@ -44,7 +44,6 @@ class Problem:
     ----------
     join_costs : (joins,) what each join of the graph costs, in units of the score.
     seams : what each join does to the stops beside it; None if nothing.
-    price : what each frame costs that is shown more than a second from its owner's time.
     hold : m, song frames danced at least after a join.
     """
 

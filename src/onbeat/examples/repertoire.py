@@ -1,4 +1,4 @@
-"""The troupe's fifteen other figures, from calm to energetic."""
+"""The troupe's sixteen other figures, from calm to energetic."""
 
 from __future__ import annotations
 
