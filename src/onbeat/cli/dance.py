@@ -68,8 +68,8 @@ def dance_command(
     start
         Second of the song to begin at.
     seed
-        Of the embedded song, of the method ``walk`` and of the chance that scores are held against; the same seed gives the
-        same bytes.
+        Of the embedded song, of the method ``walk`` and of the chance that scores are held against; the same seed
+        gives the same bytes.
     method
         How moves are chosen: ``optimal`` over the whole song, ``shiratori2006`` three seconds ahead as in the paper,
         ``greedy`` three seconds ahead on our objective, ``walk`` at random.
