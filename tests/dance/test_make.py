@@ -84,6 +84,9 @@ def test_without_the_warp_the_plan_s_own_time_is_danced(few: MoveLibrary, dance:
     assert plain.plan == dance.plan
     assert [move.at_s for move in plain.document.moves] == pytest.approx([m.at_s for m in plain.plan.moves], abs=1e-4)
     assert plain.document.metrics["warp"]["rate_max"] == 1.0
+    rates = [move.rate for move in plain.plan.moves]
+    seen = [plain.document.metrics["warp"][name] for name in ("playback_min", "playback_max")]
+    assert seen == [min(rates), max(rates)]
     assert plain.document.metrics["beats"] == plain.document.metrics["beats_before_warp"]
 
 

@@ -92,10 +92,9 @@ def _searched(found: Found) -> Scores:
 def _warped(before: HandFeatures, after: HandFeatures, warp: Warp | None, found: Found) -> Scores:
     """Rates of the warp, and of clips as they are seen (the plan's own rates included)."""
     rates = np.ones(1) if warp is None else warp.rates
-    seen = rates
+    own = seen = np.array([move.rate for move in found.plan.moves])
     if warp is not None:
         middles = (warp.knots[:-1] + warp.knots[1:]) / 2
-        own = np.array([move.rate for move in found.plan.moves])
         seen = rates * own[found.plan.clip_times(warp(middles))[0]]
     peak = float(before.speeds.max(initial=0.0))
     return {
