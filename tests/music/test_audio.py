@@ -45,6 +45,14 @@ def test_formats_keep_time(tmp_path: Path, sound: np.ndarray, ending: str) -> No
     assert np.abs(loudest_moments(audio.samples, audio.rate) - CLICKS).max() < 0.003
 
 
+def test_mp3_is_read_in_parts_as_it_is_at_once(
+    tmp_path: Path, sound: np.ndarray, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = write(tmp_path / "song.mp3", sound)
+    np.testing.assert_allclose(read_stereo(path)[0], soundfile.read(path, always_2d=True)[0], atol=1e-5)
+    assert capfd.readouterr().err == ""  # the decoder itself complains there
+
+
 @pytest.mark.parametrize("rate", [8000, 22050, 48000, 192000])
 def test_rates_keep_time(tmp_path: Path, rate: int) -> None:
     sound = mix(4.0, [(at, click()) for at in CLICKS], rate=rate).samples

@@ -50,12 +50,20 @@ class Audio:
         return len(self.samples) / self.rate
 
 
+class _Stream(soundfile.SoundFile):
+    """A file whose MP3s are read forwards: soundfile seeks after each read, at which their decoder stumbles."""
+
+    def seekable(self) -> bool:
+        """Whether soundfile may seek by itself."""
+        return self.format != "MP3" and super().seekable()
+
+
 class _FileSource:
     """A file that libsndfile reads: blocks of (N, channels) float32 from a start on."""
 
     def __init__(self, path: Path) -> None:
         try:
-            self._file = soundfile.SoundFile(_encodable(path))
+            self._file = _Stream(_encodable(path))
         except (soundfile.LibsndfileError, RuntimeError, TypeError) as error:
             reason = str(getattr(error, "error_string", error)).rstrip(".")
             raise AudioError(
