@@ -257,6 +257,7 @@ def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages
 def _table(dance: Dance, output: Path) -> Table:
     metrics = dance.document.metrics
     source = metrics["feet"]["skate_source"]
+    mirrored = metrics["variety"]["repeated_s_strict"] - metrics["variety"]["repeated_s"]
     before, after, variety = metrics["beats_before_warp"], metrics["beats"], metrics["variety"]
     song = dance.song
     table = Table(title=Text(f"{song.title}: {song.duration:.1f} s at {song.tempo:.0f} BPM → {output}"))
@@ -275,7 +276,12 @@ def _table(dance: Dance, output: Path) -> Table:
         ("with the intensity", metrics["intensity"]["intensity_pearson"], ".2f", "correlation of hands and music"),
         ("joins a minute", variety["joins_per_minute"], ".0f", "from one clip to another"),
         ("feet at joins", metrics["feet"]["skate_joins"], ".3f", f"m/s of planted feet; {_of(source)} in the clips"),
-        ("shown twice", variety["repeated_s"], ".1f", "seconds of clips seen again"),
+        (
+            "shown twice",
+            variety["repeated_s"],
+            ".1f",
+            f"seconds of clips seen again; {mirrored:.1f} more as mirror images",
+        ),
     )
     for name, value, digits, meaning in rows:
         table.add_row(name, "–" if value is None else format(value, digits), meaning)

@@ -73,7 +73,8 @@ def read_amc(path: str | Path, fps: float | None = None, skeleton: str | Path | 
     if fps is None:
         fps = _SLOWER_SUBJECTS.get(path.stem.partition("_")[0], ASSUMED_FPS)
         warnings.warn(
-            f"AMC files store no frame rate: {fps:g} frames a second are assumed; give the rate if it is another",
+            f"AMC files store no frame rate: {fps:g} frames a second are assumed; give another with --fps of "
+            "`onbeat moves build`, or --source-fps of `onbeat convert`",
             RateWarning,
             stacklevel=3,
         )

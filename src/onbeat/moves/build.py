@@ -21,6 +21,8 @@ from onbeat.moves.recordings import Recording, find_recordings
 from onbeat.moves.similarity import clip_pairs
 from onbeat.moves.store import Arrays, Pairs
 
+# Two clips are one if they last as long to so many frames, their poses are so near and their changes so correlated.
+SAME_LENGTH, SAME_POSES, ALIKE = 2, 0.25, 0.8
 Step = Callable[[str, float], None]
 READING, PLACING = 0.2, 0.55  # shares of a build's time by which files are read, and clips made of them
 
@@ -212,7 +214,8 @@ class Build:
             self.step(f"placing {read.recording.name}", READING + (PLACING - READING) * source / len(reads))
             try:
                 made, old = self._clips(read, source, stage)
-            except BodyError as error:
+                _refuse_take(made[0], clips)
+            except (BodyError, LibraryError) as error:
                 self.problems.append(Problem(read.recording.file, read.recording.digest, str(error)))
                 continue
             rows += [_row(clip, read) for clip in made]
@@ -258,6 +261,18 @@ class Build:
         first, second = now[self.old.arrays["first"]], now[self.old.arrays["second"]]
         keep = (first >= 0) & (second >= 0) & (first < second)
         return first[keep], second[keep], self.old.arrays["distance"][keep]
+
+
+def _refuse_take(clip: Clip, clips: Sequence[Clip]) -> None:
+    """Refuse a clip that moves as one already there, such as the same take in two formats: it would be seen twice."""
+    for other in clips:
+        size = min(len(clip.poses), len(other.poses))
+        if other.mirrored or max(len(clip.poses), len(other.poses)) - size > SAME_LENGTH:
+            continue
+        one, two = clip.poses[:size], other.poses[:size]
+        apart = float(np.median(np.linalg.norm(one - two, axis=1)))
+        if apart < SAME_POSES and np.corrcoef(np.diff(one, axis=0).ravel(), np.diff(two, axis=0).ravel())[0, 1] > ALIKE:
+            raise LibraryError(f"moves as {other.name} does, all along")
 
 
 def _clip_of(clips: Sequence[Clip]) -> Ints:
