@@ -20,11 +20,11 @@ from onbeat.moves.graph import GRID
 from onbeat.music.song import Song
 
 FINE = 8  # beat table entries per graph frame: 240 Hz
-HIT_WIDTH = 0.05
+HIT_WIDTH = 0.06
 """Seconds; a stop this far from its beat earns exp(−1/2) of it."""
 OFF_BEAT = 0.42
 """What every stop costs; a stop on a beat earns 1 less this."""
-INTENSITY = 0.6
+INTENSITY = 0.78
 """λ: what a second costs or earns at one standard deviation of both intensities."""
 STANDING = 0.5
 """What a second costs in which the hands do not dance: quiet music asks for small movements, not for none."""

@@ -23,9 +23,9 @@ from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 
-JOIN = 0.42
+JOIN = 0.36
 """What every join costs, in units of a stop on its beat."""
-ROUGH = 0.37
+ROUGH = 0.40
 """What a join of pose distance ``ALIKE`` costs besides; it grows with the square of the distance."""
 ALIKE = 0.30
 METHODS = ("optimal", "shiratori2006", "greedy", "walk")

@@ -20,7 +20,7 @@ from onbeat.moves.similarity import clip_pairs
 
 CLIP_RATE = 60.0
 """Hz, the highest rate at which clips are kept."""
-REACH = 0.46
+REACH = 0.54
 """Largest pose distance of a join (see ``poses``)."""
 SHORTEST = STRETCH + 2 * MARGIN + 0.2
 """Seconds that a clip needs at least."""
