@@ -113,7 +113,7 @@ def test_it_says_how_far_it_is(few: MoveLibrary) -> None:
     ("song", "options", "message"),
     [
         (song_of(LONGEST + 60), {}, "lasts 21 minutes; a dance lasts at most 20: choose a stretch with --start"),
-        (replace(song_of(3.0), **ONE_BEAT), {}, "1 beats are heard"),
+        (replace(song_of(3.0), **ONE_BEAT), {}, "one beat is heard"),
         (song_of(4.0), {"fps": 0.0}, "0 frames a second cannot be"),
         (song_of(4.0), {"fps": 1e9}, "frames a second cannot be"),
         (song_of(4.0), {"fps": float("nan")}, "frames a second cannot be"),

@@ -153,3 +153,25 @@ def test_the_inverse_undoes_the_warp(stops: Times, beats: Times) -> None:
 def test_the_shortest_dance_can_be_warped() -> None:
     plan = plan_of([1.0], length=0.1)
     assert fit_warp(plan, np.array([0.05]), np.array([0.06]), *still(plan)).values[-1] == pytest.approx(0.1)
+
+
+def test_a_fast_move_is_not_played_faster_wherever_the_warp_puts_it() -> None:
+    """The bounds hold for what is seen: a fast move that the warp brings forward has its own bound there."""
+    rng = np.random.default_rng(5)
+    for _ in range(40):
+        starts = np.concatenate(([0.0], np.cumsum(rng.uniform(0.8, 1.6, 12))))
+        rates = rng.choice([0.87, 1.0, 1.1], 12)
+        moves = [
+            Move(0, 0.0, float(rate * (end - start)), float(start), float(rate))
+            for start, end, rate in zip(starts[:-1], starts[1:], rates, strict=True)
+        ]
+        plan = DancePlan(tuple(moves), float(starts[-1]))
+        beats = np.arange(0.3, plan.duration, 0.5)
+        stops = np.sort(np.clip(beats + rng.uniform(-0.14, 0.14, len(beats)), 0.05, plan.duration - 0.05))
+        warp = fit_warp(plan, stops, beats, np.zeros(0), np.zeros(0))
+        fine = np.arange(0.0, plan.duration, 0.002)
+        own = np.array([move.rate for move in plan.moves])[plan.clip_times(warp(fine))[0]]
+        step = np.clip(np.searchsorted(warp.knots, fine, side="right") - 1, 0, len(warp.rates) - 1)
+        seen = warp.rates[step] * own
+        assert seen.min() >= SLOWEST - 1e-6
+        assert seen.max() <= FASTEST + 1e-6

@@ -123,8 +123,9 @@ def _danceable(song: Song) -> Song:
         )
     song = danceable_beats(song)
     if len(song.beats) < 2:
+        count = "one beat is" if len(song.beats) else "no beat is"
         raise PlanError(
-            f"{len(song.beats)} beats are heard in {song.duration:.1f} s of {song.title or 'the song'}; "
+            f"{count} heard in {song.duration:.1f} s of {song.title or 'the song'}; "
             "at least 2 are needed: choose another stretch with --start and --seconds"
         )
     return song
@@ -145,9 +146,8 @@ def _document(
     seed: int,
     method: str,
 ) -> DanceDocument:
-    at = [move.at_s for move in found.plan.moves]
-    shown = at if warp is None else warp.inverse(found.plan.join_times).tolist()
-    shown = shown if warp is None else [0.0, *shown]
+    joined = found.plan.join_times if warp is None else warp.inverse(found.plan.join_times)
+    shown = [0.0, *joined.tolist()]
     moves = [
         MoveDocument(library.clips[move.clip].name, round(move.from_s, 4), round(move.to_s, 4), round(start, 4))
         for move, start in zip(found.plan.moves, shown, strict=True)

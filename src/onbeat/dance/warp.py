@@ -132,16 +132,19 @@ def fit_warp(plan: DancePlan, stops: Times, beats: Times, speed_times: Times, sp
 
 def _bounds(plan: DancePlan, knots: Times, speed_times: Times, speeds: Array) -> tuple[Array, Array]:
     """(K−1,) lowest and highest rate of each knot interval."""
-    low, high = np.full(len(knots) - 1, SLOWEST), np.full(len(knots) - 1, FASTEST)
+    starts = np.array([move.at_s for move in plan.moves])
     rates = np.array([move.rate for move in plan.moves])
-    middles = (knots[:-1] + knots[1:]) / 2
-    for shift in np.arange(-REACH, REACH + 0.01, 0.06):  # what may be shown here after the warp
-        near = np.clip(middles + shift, 0.0, plan.duration - 1e-6)
-        rate = rates[plan.clip_times(near)[0]]
-        low, high = np.maximum(low, SLOWEST / rate), np.minimum(high, FASTEST / rate)
-        if len(speeds):
-            peak = float(np.max(speeds))
-            high = np.minimum(high, SPEED * peak / np.maximum(np.interp(near, speed_times, speeds), 1e-3))
+    # All that may be shown between two knots: the warp moves nothing by more than REACH.
+    early, late = knots[:-1] - REACH, knots[1:] + REACH
+    first = np.maximum(np.searchsorted(starts, early, side="right") - 1, 0)
+    last = np.searchsorted(starts, late, side="right")
+    low = np.array([SLOWEST / rates[a:b].min() for a, b in zip(first.tolist(), last.tolist(), strict=True)])
+    high = np.array([FASTEST / rates[a:b].max() for a, b in zip(first.tolist(), last.tolist(), strict=True)])
+    if len(speeds):
+        begin = np.maximum(np.searchsorted(speed_times, early) - 1, 0).tolist()
+        end = np.maximum(np.searchsorted(speed_times, late) + 1, np.array(begin) + 1).tolist()
+        fastest = np.array([speeds[a:b].max(initial=1e-3) for a, b in zip(begin, end, strict=True)])
+        high = np.minimum(high, SPEED * float(np.max(speeds)) / fastest)
     return np.minimum(low, 1.0), np.maximum(high, 1.0)
 
 
