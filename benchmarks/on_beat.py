@@ -108,7 +108,7 @@ def main() -> None:
         return
     print(
         f"{len(library.clips)} clips, {library.seconds:.0f} s, {len(library.graph)} frames, "
-        f"{library.graph.join_count} joins, ready in {opened:.1f} s; {len(songs)} songs of {given.seconds:g} s"
+        f"{library.graph.join_count} joins, ready in {opened:.1f} s; {len(songs)} songs of up to {given.seconds:g} s"
     )
     names = list(table)
     for column in [*COLUMNS, "search s"]:
