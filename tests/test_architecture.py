@@ -20,6 +20,7 @@ FILES = sorted(SOURCE.rglob("*.py"))
 FLOORS = (
     {"errors", "_shapes", "files"},
     {"motion", "music"},
+    {"capture"},
     {"formats", "keyposes", "retime", "robots", "metrics", "examples"},
     {"moves", "recognition"},
     {"dance"},

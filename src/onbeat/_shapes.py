@@ -22,3 +22,12 @@ Rotations = NDArray[np.float64]
 """(..., 4) unit quaternions, wxyz."""
 Times = NDArray[np.float64]
 """(N,) seconds, increasing."""
+
+
+def frozen(values: object, dtype: type = np.float64) -> np.ndarray:
+    """An array that nobody else can change: the given one where it is read-only and owns its data, else a copy."""
+    if isinstance(values, np.ndarray) and values.dtype == dtype and values.base is None and not values.flags.writeable:
+        return values
+    array = np.array(values, dtype=dtype)
+    array.setflags(write=False)
+    return array

@@ -178,7 +178,7 @@ def test_units_and_axes_are_guessed_from_the_body():
 
 def test_a_convention_overrides_the_guesses():
     small = swinging(Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], [0, 0, 0.02]]), frames=3)
-    again = parsed(bvh_text(small, Convention("z", "cm")), convention=Convention("z", "cm"))
+    again = parsed(bvh_text(small, Convention("z", "cm")), up="z", unit="cm")
     np.testing.assert_allclose(again.positions, small.positions, atol=1e-7)
 
 

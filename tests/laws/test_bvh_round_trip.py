@@ -40,7 +40,7 @@ def skeletons(draw) -> Skeleton:
 @given(skeletons(), conventions, st.floats(1, 400), st.integers(1, 6), st.integers(0, 99))
 def test_any_tree(skeleton, convention, fps, frames, seed):
     motion = swinging(skeleton, frames, fps, seed, angle=3.0)
-    again = parse_bvh(bvh_text(motion, convention), "a.bvh", convention=convention)
+    again = parse_bvh(bvh_text(motion, convention), "a.bvh", up=convention.up, unit=convention.unit)
     assert again.skeleton.names == skeleton.names
     assert again.skeleton.end_sites.tolist() == skeleton.end_sites.tolist()
     assert abs(again.fps - fps) < 1e-9 * fps

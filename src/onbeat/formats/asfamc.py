@@ -19,7 +19,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Rotations
 from onbeat.errors import FormatError
-from onbeat.formats.conventions import z_up_motion
+from onbeat.formats.conventions import Convention, Up, z_up_motion
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
@@ -53,13 +53,20 @@ class _Acclaim:
     position: Array
 
 
-def read_amc(path: str | Path, fps: float | None = None, skeleton: str | Path | None = None) -> Motion:
+def read_amc(
+    path: str | Path,
+    fps: float | None = None,
+    up: Up | None = None,
+    unit: str | None = None,
+    skeleton: str | Path | None = None,
+) -> Motion:
     """Read an AMC file with its ASF in metres with Z up.
 
     Parameters
     ----------
     path : the ``.amc`` file.
     fps : the rate of its frames; without it one is assumed, with a warning.
+    up, unit : the axis that points up and the unit of length, where they are not Y and the skeleton file's.
     skeleton : the ``.asf`` file; without it the one that belongs to ``path`` (see :func:`skeleton_file`).
 
     Raises
@@ -78,7 +85,8 @@ def read_amc(path: str | Path, fps: float | None = None, skeleton: str | Path | 
             RateWarning,
             stacklevel=3,
         )
-    return z_up_motion(_motion(acclaim, columns, radians, fps, path), acclaim.metres, "y")
+    metres = acclaim.metres if unit is None else Convention("y", unit).metres
+    return z_up_motion(_motion(acclaim, columns, radians, fps, path), metres, up or "y")
 
 
 def skeleton_file(path: Path) -> Path:

@@ -19,7 +19,15 @@ import numpy as np
 from onbeat._shapes import Array, Bools, Rotations
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
-from onbeat.formats.conventions import Convention, guessed_unit, guessed_up, y_up_rotations, y_up_vectors, z_up_motion
+from onbeat.formats.conventions import (
+    Convention,
+    Up,
+    guessed_unit,
+    guessed_up,
+    y_up_rotations,
+    y_up_vectors,
+    z_up_motion,
+)
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
@@ -41,8 +49,8 @@ class _Joint:
     """(axis, whether it is a rotation, column)."""
 
 
-def read_bvh(path: str | Path, fps: float | None = None, convention: Convention | None = None) -> Motion:
-    """Read a BVH file in metres with Z up; ``fps`` replaces the file's rate, ``convention`` the guesses.
+def read_bvh(path: str | Path, fps: float | None = None, up: Up | None = None, unit: str | None = None) -> Motion:
+    """Read a BVH file in metres with Z up; ``fps`` replaces the file's rate, ``up`` and ``unit`` the guesses.
 
     Raises
     ------
@@ -54,11 +62,11 @@ def read_bvh(path: str | Path, fps: float | None = None, convention: Convention 
         text = path.read_bytes().decode("utf-8-sig", errors="replace")
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}") from None
-    return parse_bvh(text, str(path), fps, convention, path.stem)
+    return parse_bvh(text, str(path), fps, up, unit, path.stem)
 
 
 def parse_bvh(
-    text: str, label: str, fps: float | None = None, convention: Convention | None = None, name: str = ""
+    text: str, label: str, fps: float | None = None, up: Up | None = None, unit: str | None = None, name: str = ""
 ) -> Motion:
     """A motion from the text of a BVH file; ``label`` names the file in messages."""
     text = text.replace("\r\n", "\n").replace("\r", "\n")
@@ -73,9 +81,8 @@ def parse_bvh(
     frames, rate = _whole_number(counts[1], f"{label}:{line}", "frames"), _rate(counts[2], f"{label}:{line}")
     values = _values(text, counts.end(), frames, sum(len(j.channels) for j in joints), label)
     raw = _motion(joints, values, rate if fps is None else fps, name, label)
-    unit = guessed_unit(raw.skeleton) if convention is None else convention.unit
-    up = guessed_up(raw) if convention is None else convention.up
-    return z_up_motion(raw, Convention(up, unit).metres, up)
+    up = guessed_up(raw)[0] if up is None else up
+    return z_up_motion(raw, Convention(up, unit or guessed_unit(raw.skeleton)).metres, up)
 
 
 class _Hierarchy:

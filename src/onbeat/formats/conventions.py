@@ -1,7 +1,8 @@
 """Axes and units of motion files: what comes in becomes metres, Z up; what goes out is turned back.
 
-A file with Y up is turned by 90° about X, ``(x, y, z) → (x, −z, y)``: a proper rotation Q, so left stays left. Offsets
-and positions turn as vectors; local rotations are conjugated, ``q → Q q Q⁻¹``, so that the rest pose turns with them.
+A file with Y up is turned by 90° about X, ``(x, y, z) → (x, −z, y)``, one with X up by ``(x, y, z) → (y, z, x)``:
+proper rotations Q, so left stays left. Offsets and positions turn as vectors; local rotations are conjugated,
+``q → Q q Q⁻¹``, so that the rest pose turns with them.
 """
 
 from __future__ import annotations
@@ -19,6 +20,11 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "cmu": 0.0254 / 0.45}
 """Metres in one unit; ``cmu`` is the length of CMU's files and of their BVH conversions."""
 
 
+Up = Literal["x", "y", "z"]
+"""The axis of a file that points up."""
+UP_AXES: tuple[Up, ...] = ("x", "y", "z")
+
+
 @dataclass(frozen=True)
 class Convention:
     """Which axis of a file points up, and its unit of length (one of :data:`UNITS`).
@@ -29,12 +35,12 @@ class Convention:
         If the axis or the unit is not known.
     """
 
-    up: Literal["y", "z"] = "y"
+    up: Up = "y"
     unit: str = "cm"
 
     def __post_init__(self) -> None:
-        if self.up not in ("y", "z"):
-            raise FormatError(f"the up axis {self.up!r} is not known; y or z is expected")
+        if self.up not in UP_AXES:
+            raise FormatError(f"the up axis {self.up!r} is not known; x, y or z is expected")
         if self.unit not in UNITS:
             raise FormatError(f"the unit {self.unit!r} is not known; {', '.join(UNITS)} are expected")
 
@@ -44,40 +50,53 @@ class Convention:
         return UNITS[self.unit]
 
 
-def z_up_vectors(v: Positions) -> Positions:
-    """Vectors (..., 3) of a Y-up file with Z up: ``(x, y, z) → (x, −z, y)``."""
-    return np.stack((v[..., 0], -v[..., 2], v[..., 1]), axis=-1)
+def z_up_vectors(v: Positions, up: Up = "y") -> Positions:
+    """Vectors (..., 3) of a file whose ``up`` axis points up, with Z up; Y: ``(x, y, z) → (x, −z, y)``."""
+    if up == "y":
+        return np.stack((v[..., 0], -v[..., 2], v[..., 1]), axis=-1)
+    return v[..., [1, 2, 0]] if up == "x" else np.asarray(v)
 
 
-def y_up_vectors(v: Positions) -> Positions:
-    """Vectors (..., 3) with Z up for a Y-up file: ``(x, y, z) → (x, z, −y)``.
+def up_vectors(v: Positions, up: Up) -> Positions:
+    """Vectors (..., 3) with Z up for a file whose ``up`` axis points up; the inverse of :func:`z_up_vectors`.
 
     Examples
     --------
-    >>> y_up_vectors(z_up_vectors(np.array([1.0, 2.0, 3.0]))).tolist()
-    [1.0, 2.0, 3.0]
+    >>> [up_vectors(z_up_vectors(np.array([1.0, 2.0, 3.0]), up), up).tolist() for up in ("x", "y")]
+    [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]]
     """
-    return np.stack((v[..., 0], v[..., 2], -v[..., 1]), axis=-1)
+    if up == "y":
+        return np.stack((v[..., 0], v[..., 2], -v[..., 1]), axis=-1)
+    return v[..., [2, 0, 1]] if up == "x" else np.asarray(v)
 
 
-def z_up_rotations(q: Rotations) -> Rotations:
-    """Rotations (..., 4) of a Y-up file with Z up: the conjugation turns the vector part only."""
-    return np.concatenate((q[..., :1], z_up_vectors(q[..., 1:])), axis=-1)
+def y_up_vectors(v: Positions) -> Positions:
+    """Vectors (..., 3) with Z up for a Y-up file: ``(x, y, z) → (x, z, −y)``."""
+    return up_vectors(v, "y")
+
+
+def z_up_rotations(q: Rotations, up: Up = "y") -> Rotations:
+    """Rotations (..., 4) of such a file with Z up: the conjugation turns the vector part only."""
+    return q if up == "z" else np.concatenate((q[..., :1], z_up_vectors(q[..., 1:], up)), axis=-1)
+
+
+def up_rotations(q: Rotations, up: Up) -> Rotations:
+    """Rotations (..., 4) with Z up for a file whose ``up`` axis points up."""
+    return q if up == "z" else np.concatenate((q[..., :1], up_vectors(q[..., 1:], up)), axis=-1)
 
 
 def y_up_rotations(q: Rotations) -> Rotations:
     """Rotations (..., 4) with Z up for a Y-up file."""
-    return np.concatenate((q[..., :1], y_up_vectors(q[..., 1:])), axis=-1)
+    return up_rotations(q, "y")
 
 
-def z_up_motion(motion: Motion, metres: float, up: Literal["y", "z"]) -> Motion:
+def z_up_motion(motion: Motion, metres: float, up: Up) -> Motion:
     """A motion as a file tells it, in metres and with Z up."""
-    turn = z_up_vectors if up == "y" else np.asarray
     s, t = motion.skeleton, motion.translations
-    skeleton = Skeleton(s.names, s.parents, turn(s.offsets) * metres, s.end_sites)
-    rotations = z_up_rotations(motion.rotations) if up == "y" else motion.rotations
-    translations = None if t is None else turn(t) * metres
-    return Motion(skeleton, rotations, turn(motion.root_positions) * metres, motion.fps, motion.name, translations)
+    skeleton = Skeleton(s.names, s.parents, z_up_vectors(s.offsets, up) * metres, s.end_sites)
+    translations = None if t is None else z_up_vectors(t, up) * metres
+    path = z_up_vectors(motion.root_positions, up) * metres
+    return Motion(skeleton, z_up_rotations(motion.rotations, up), path, motion.fps, motion.name, translations)
 
 
 def tree_span(skeleton: Skeleton) -> float:
@@ -107,14 +126,20 @@ def guessed_unit(skeleton: Skeleton) -> str:
     return "cm" if span < 400 else "mm"
 
 
-def guessed_up(motion: Motion) -> Literal["y", "z"]:
-    """The axis along which the head is over the ankles in the frames themselves; Y where that does not tell."""
+def guessed_up(motion: Motion) -> tuple[Up, str]:
+    """The axis along which the head is over the ankles in the frames themselves, and why; Y where that does not tell.
+
+    X is never guessed: hardly any file has it up, and in many somebody lies down.
+    """
     try:
         body = Body.of(motion.skeleton)
     except BodyError:
-        return "y"
+        return "y", "no body with head and feet is recognised; Y is usual"
     some = motion[:: max(1, len(motion) // 32)]
     top = some.positions[:, body["head"] if "head" in body else body["chest"]]
     feet = some.positions[:, body.indices("left_ankle", "right_ankle")].mean(1)
     mean: Array = (top - feet).mean(0)
-    return "z" if mean[2] > 2 * abs(mean[1]) else "y"
+    if mean[2] > 2 * abs(mean[1]):
+        return "z", "the head is over the feet along it"
+    clear = mean[1] > np.abs(mean[[0, 2]]).max()
+    return "y", "the head is over the feet along it" if clear else "no axis is clearly upright; Y is usual"

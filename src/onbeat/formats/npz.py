@@ -16,7 +16,7 @@ import numpy as np
 
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
-from onbeat.formats.conventions import Convention
+from onbeat.formats.conventions import Convention, Up
 from onbeat.motion import Motion, Skeleton
 
 VERSION = 1
@@ -44,7 +44,7 @@ def write_npz(motion: Motion, path: str | Path, convention: Convention | None = 
     write_atomically(path, buffer.getvalue())
 
 
-def read_npz(path: str | Path, fps: float | None = None) -> Motion:
+def read_npz(path: str | Path, fps: float | None = None, up: Up | None = None, unit: str | None = None) -> Motion:
     """Read what :func:`write_npz` wrote; nothing in it is ever executed.
 
     Raises

@@ -7,17 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
-from onbeat._shapes import Array, Positions, Rotations, Times
+from onbeat._shapes import Positions, Rotations, Times, frozen
 from onbeat.errors import FormatError
 from onbeat.motion import rotations as rot
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.skeleton import Skeleton
-
-
-def _frozen(values: object) -> Array:
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +50,11 @@ class Motion:
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__
-        set_(self, "rotations", _frozen(self.rotations))
-        set_(self, "root_positions", _frozen(self.root_positions))
+        set_(self, "rotations", frozen(self.rotations))
+        set_(self, "root_positions", frozen(self.root_positions))
         set_(self, "fps", float(self.fps))
         if self.translations is not None:
-            set_(self, "translations", _frozen(self.translations))
+            set_(self, "translations", frozen(self.translations))
         self._check()
 
     def _check(self) -> None:

@@ -8,14 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from onbeat._shapes import Array, Bools, Ints
+from onbeat._shapes import Array, Bools, Ints, frozen
 from onbeat.errors import FormatError
-
-
-def _frozen(values: object, dtype: type) -> np.ndarray:
-    array = np.array(values, dtype=dtype)
-    array.setflags(write=False)
-    return array
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,9 +52,9 @@ class Skeleton:
     ) -> None:
         set_ = object.__setattr__
         set_(self, "names", tuple(names))
-        set_(self, "parents", _frozen(parents, np.int64))
-        set_(self, "offsets", _frozen(offsets, np.float64))
-        set_(self, "end_sites", _frozen([False] * len(self.names) if end_sites is None else end_sites, np.bool_))
+        set_(self, "parents", frozen(parents, np.int64))
+        set_(self, "offsets", frozen(offsets, np.float64))
+        set_(self, "end_sites", frozen([False] * len(self.names) if end_sites is None else end_sites, np.bool_))
         self._check()
 
     def _check(self) -> None:
