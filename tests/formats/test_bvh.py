@@ -5,7 +5,9 @@ import pytest
 
 from onbeat.errors import FormatError
 from onbeat.formats import Convention, read_motion, write_motion
-from onbeat.formats.bvh import bvh_text, parse_bvh
+from onbeat.formats.bvh import parse_bvh
+from onbeat.formats.bvh_write import bvh_text
+from onbeat.formats.notes import noted
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 from persons import BVH, person, swinging
@@ -71,6 +73,13 @@ def test_names_are_kept(name):
         assert parsed(BVH.replace("JOINT Leg", f"JOINT {name}")).skeleton.names[3:] == (name, f"{name}_end")
 
 
+def test_two_joints_of_one_name_are_told_apart():
+    with noted() as notes:
+        motion = parsed(BVH.replace("JOINT Leg", "JOINT Spine"))
+    assert motion.skeleton.names == ("Hips", "Spine", "Spine_end", "Spine_2", "Spine_2_end")
+    assert ("names", "Spine_2", "line 15 names another joint 'Spine'") in notes
+
+
 BROKEN = {
     "fewer frames": (
         BVH.replace("Frames: 2", "Frames: 3"),
@@ -96,7 +105,6 @@ BROKEN = {
     "an unknown channel": (BVH.replace("1 Xrotation", "1 Wrotation"), "a.bvh:18: 1 channels such as Xrotation"),
     "an offset too short": (BVH.replace("OFFSET 10.0 0.0 0.0", "OFFSET 10.0 0.0"), "a.bvh:18: a number is expected"),
     "no offset": (BVH.replace("OFFSET 10.0 0.0 0.0", ""), "joint 'Leg' has no OFFSET"),
-    "two joints of one name": (BVH.replace("JOINT Leg", "JOINT Spine"), "a.bvh:15: the joint name 'Spine'"),
     "a brace too few": (BVH.replace("}\nMOTION", "MOTION"), "the braces of joint 'Hips' (line 2) are not closed"),
     "a brace too many": (BVH.replace("}\nMOTION", "}\n}\nMOTION"), "a.bvh:25: '}' found"),
     "two roots": (BVH.replace("JOINT Leg", "ROOT Leg"), "a.bvh:15: ROOT is out of place"),

@@ -14,6 +14,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Positions, Rotations
 from onbeat.errors import BodyError, FormatError
+from onbeat.formats.notes import tell
 from onbeat.motion import Body, Motion, Skeleton
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "cmu": 0.0254 / 0.45}
@@ -70,6 +71,18 @@ def up_vectors(v: Positions, up: Up) -> Positions:
     return v[..., [2, 0, 1]] if up == "x" else np.asarray(v)
 
 
+def turn_in_place(v: Positions, up: Up, scale: float = 1.0) -> None:
+    """:func:`z_up_vectors` times ``scale``, written over ``v`` itself a block of frames at a time."""
+    step = max(1, 100_000 // max(1, v[0].size)) if len(v) else 1
+    for at in range(0, len(v), step):
+        v[at : at + step] = z_up_vectors(v[at : at + step], up) * scale
+
+
+def unit_metres(unit: str) -> float:
+    """Metres in one of :data:`UNITS`; a ``FormatError`` lists them."""
+    return Convention("z", unit).metres
+
+
 def y_up_vectors(v: Positions) -> Positions:
     """Vectors (..., 3) with Z up for a Y-up file: ``(x, y, z) → (x, z, −y)``."""
     return up_vectors(v, "y")
@@ -119,11 +132,9 @@ def guessed_unit(skeleton: Skeleton) -> str:
     millimetres. Sizes that no body has (3.5 to 15) and skeletons without length are taken as centimetres.
     """
     span = tree_span(skeleton)
-    if 0 < span < 3.5:
-        return "m"
-    if 15 <= span < 60:
-        return "cmu"
-    return "cm" if span < 400 else "mm"
+    unit = "m" if 0 < span < 3.5 else "cmu" if 15 <= span < 60 else "cm" if span < 400 else "mm"
+    tell("unit", unit, f"the longest way along the bones is {span:g} units, so {span * UNITS[unit]:.2f} m")
+    return unit
 
 
 def guessed_up(motion: Motion) -> tuple[Up, str]:

@@ -9,7 +9,8 @@ from typing import NamedTuple, Protocol
 
 from onbeat.errors import FormatError
 from onbeat.formats.asfamc import read_amc
-from onbeat.formats.bvh import read_bvh, write_bvh
+from onbeat.formats.bvh import read_bvh
+from onbeat.formats.bvh_write import write_bvh
 from onbeat.formats.conventions import Convention, Up
 from onbeat.formats.glb import write_glb
 from onbeat.formats.npz import read_npz, write_npz

@@ -151,6 +151,35 @@ def from_euler(order: str, angles: Array) -> Rotations:
 
 
 def to_euler(order: str, q: Rotations) -> Array:
-    """Euler angles (..., 3) in radians about moving axes in ``order``; at gimbal lock the third angle is zero."""
-    rotation = Rotation.from_quat(q.reshape(-1, 4), scalar_first=True)
-    return rotation.as_euler(order.upper(), suppress_warnings=True).reshape(*q.shape[:-1], 3)
+    """Euler angles (..., 3) in radians, −π…π, about moving axes in ``order``; at gimbal lock the third angle is zero.
+
+    After Bernardes & Viollet 2022 (doi:10.1371/journal.pone.0276302): for axes k, j, i with parity ε and
+    ``a = w − q_j, b = q_i + ε q_k, c = w + q_j, d = ε q_k − q_i`` the middle angle is
+    ``2 atan2(|c, d|, |a, b|) − π/2``, sum and difference of the others are ``2 atan2(b, a)`` and ``2 atan2(d, c)``.
+    It loses no digits near gimbal lock. Orders that come back to the first axis (ZXZ) take ``a, b, c, d = w, q_i, q_j,
+    ε q_k`` and no ``π/2``.
+
+    Examples
+    --------
+    >>> np.degrees(to_euler("ZXY", from_euler("ZXY", np.radians([10.0, -20, 30])))).round(9).tolist()
+    [10.0, -20.0, 30.0]
+    """
+    i, j, k = ("XYZ".index(axis) for axis in order.upper()[::-1])
+    proper = i == k
+    k = 3 - i - j if proper else k
+    parity = (i - j) * (j - k) * (k - i) // 2
+    w, first, middle, last = q[..., 0], q[..., 1 + i], q[..., 1 + j], q[..., 1 + k] * parity
+    if proper:
+        a, b, c, d = w, first, middle, last
+    else:
+        a, b, c, d = w - middle, first + last, w + middle, last - first
+    tilt = 2 * np.arctan2(np.hypot(c, d), np.hypot(a, b))
+    total, difference = np.arctan2(b, a), np.arctan2(d, c)
+    low, high = tilt < 1e-7, tilt > np.pi - 1e-7
+    angles = np.empty((*q.shape[:-1], 3))
+    angles[..., 0] = np.where(low, 2 * total, np.where(high, 2 * difference, total + difference))
+    angles[..., 2] = np.where(low | high, 0.0, total - difference)
+    angles[..., 1] = tilt if proper else tilt - np.pi / 2
+    if not proper:
+        angles[..., 0] *= parity
+    return angles - 2 * np.pi * np.rint(angles / (2 * np.pi))
