@@ -1,0 +1,168 @@
+"""What is wrong with a motion, as captured and exported motion often is: what, where, and what to do about it.
+
+All thresholds are in metres, seconds and radians, so that any frame rate finds the same.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import numpy as np
+
+from onbeat._shapes import Array, Bools
+from onbeat.errors import BodyError
+from onbeat.motion import rotations as rot
+from onbeat.motion.body import Body
+from onbeat.motion.contacts import foot_contacts, point_speeds
+from onbeat.motion.edit import stature
+from onbeat.motion.motion import Motion
+from onbeat.motion.retarget import floor_height
+
+FLIP = np.radians(60)
+"""Radians from one frame to the next, and not on: at dancers' 15 rad/s a joint turns 30° in a frame of 1/30 s."""
+FLIP_SPEED = 40.0
+"""rad/s that no joint reaches."""
+LEAP = 12.0
+"""m/s faster than anybody moves."""
+STILL = 0.5
+"""Seconds without any change in the last bit: nobody stands so."""
+UNDER_FLOOR, OVER_FLOOR = -0.03, 0.08
+"""Metres between which the lowest joint of standing feet is taken to be on the floor: it is above the sole."""
+SKATE = 0.15
+"""m/s (mean) of feet that rest."""
+SIZES = (0.6, 2.4)
+"""Metres of bodies that need no explanation."""
+
+
+def problems(motion: Motion) -> list[str]:
+    """One line for each thing found, the gravest first; an empty list is a good sign, no proof.
+
+    Examples
+    --------
+    >>> from onbeat.motion.skeleton import Skeleton
+    >>> rod = Skeleton(("foot", "head"), [-1, 0], [[0, 0, 0], [0, 0, 1.7]])
+    >>> q = np.tile([1.0, 0, 0, 0], (60, 2, 1))
+    >>> problems(Motion(rod, q, np.zeros((60, 3)), fps=30))[0]
+    'frames 0–59 are exactly alike (2.00 s): the capture stopped, or frames were filled in'
+    """
+    found = [*_leaps(motion), *_flips(motion), *_still(motion), *_rest_first(motion), *_repeats(motion)]
+    found += [*_size(motion), *_stretching(motion)]
+    try:
+        body = Body.of(motion.skeleton)
+    except BodyError as error:
+        return [*found, str(error).split(";")[0]]
+    return [*found, *_floor(motion, body), *_feet(motion, body), *_sides(body)]
+
+
+def _leaps(motion: Motion) -> Iterator[str]:
+    speed = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
+    fast = np.flatnonzero(speed > LEAP)
+    if len(fast):
+        yield (
+            f"the root leaps at {len(fast)} frame{'s' * (len(fast) > 1)}, first between {fast[0]} and {fast[0] + 1} "
+            f"({speed[fast[0]]:.0f} m/s): a cut, or a wrong rate or unit"
+        )
+
+
+def _flips(motion: Motion) -> Iterator[str]:
+    """Joints that turn in one frame further than anybody can, named with how often."""
+    turn = rot.angle_between(motion.rotations[:-1], motion.rotations[1:])
+    turn[:1] *= not any(_rest_first(motion))
+    flips = (turn > FLIP) & (turn * motion.fps > FLIP_SPEED)
+    frames, joints = np.nonzero(flips)
+    if len(frames):
+        counts = sorted(((int(n), int(j)) for j, n in zip(*np.unique(joints, return_counts=True), strict=True)))[::-1]
+        named = ", ".join(f"{motion.skeleton.names[j]} {n}×" for n, j in counts[:4])
+        yield f"joints flip from one frame to the next ({named}), first after frame {frames[0]}: noise of the capture"
+
+
+def _unchanged(motion: Motion) -> Bools:
+    """(F − 1,) true where a frame is the one before, to the last bit."""
+    same = (motion.rotations[1:] == motion.rotations[:-1]).all((1, 2))
+    return np.asarray(same & (motion.root_positions[1:] == motion.root_positions[:-1]).all(1))
+
+
+def _still(motion: Motion) -> Iterator[str]:
+    at, longest, first = 0, 0, 0
+    for equal, run in itertools.groupby(_unchanged(motion).tolist()):
+        length = sum(1 for _ in run)
+        if equal and length > longest:
+            longest, first = length, at
+        at += length
+    if longest >= STILL * motion.fps:
+        seconds = (longest + 1) / motion.fps
+        yield (
+            f"frames {first}–{first + longest} are exactly alike ({seconds:.2f} s): the capture stopped, or frames "
+            "were filled in"
+        )
+
+
+def _repeats(motion: Motion) -> Iterator[str]:
+    same = _unchanged(motion)
+    if len(same) < 12 or not 0.4 < same.mean() < 0.9:
+        return
+    changes = np.diff(np.flatnonzero(~same))
+    if len(changes) > 3 and (changes == changes[0]).mean() > 0.9 and changes[0] > 1:
+        yield (
+            f"each frame is there {changes[0]} times: it was stored at {motion.fps:g} frames a second but made at "
+            f"{motion.fps / changes[0]:g}"
+        )
+
+
+def _rest_first(motion: Motion) -> Iterator[str]:
+    """A pose of reference in front, as many exporters put it: several joints turn far after frame 0, and not again."""
+    if len(motion) < 3:
+        return
+    turned = rot.angle_between(motion.rotations[:2], motion.rotations[1:3])
+    far = (turned > np.radians(15)) & (turned * motion.fps > FLIP_SPEED / 2)
+    if far[0].sum() >= 3 > far[1].sum():
+        yield (
+            "frame 0 is a pose by itself (of reference, as a T-pose) and no part of the movement; leave it out "
+            f"(`onbeat convert --start {1 / motion.fps:.4g}`)"
+        )
+
+
+def _size(motion: Motion) -> Iterator[str]:
+    height = stature(motion)
+    if not SIZES[0] <= height <= SIZES[1]:
+        yield f"the body is {height:.2f} m tall: is the unit right? (`--source-unit`)"
+
+
+def _stretching(motion: Motion) -> Iterator[str]:
+    if motion.translations is None:
+        return
+    lengths: Array = np.linalg.norm(motion.translations[:, 1:], axis=-1)
+    spread = np.ptp(lengths, axis=0)
+    if spread.max(initial=0) > 1e-3:
+        joint = int(np.argmax(spread)) + 1
+        yield (
+            f"bones change their length, that to {motion.skeleton.names[joint]} by up to {1000 * spread.max():.0f} mm "
+            f"({int((spread > 1e-3).sum())} bones do)"
+        )
+
+
+def _floor(motion: Motion, body: Body) -> Iterator[str]:
+    height = floor_height(motion, body)
+    if not UNDER_FLOOR <= height <= OVER_FLOOR:
+        yield f"feet stand at {height:+.2f} m (`onbeat convert --ground` puts them at 0)"
+
+
+def _feet(motion: Motion, body: Body) -> Iterator[str]:
+    contacts = foot_contacts(motion, body).feet
+    feet = motion.positions[:, body.indices("left_ankle", "right_ankle")]
+    if contacts.any() and (speed := float(point_speeds(feet, motion.fps)[contacts].mean())) > SKATE:
+        yield f"feet slide while they stand ({speed:.2f} m/s on average)"
+
+
+def _sides(body: Body) -> Iterator[str]:
+    lengths = body.skeleton.bone_lengths
+    for role, joint in body.joints.items():
+        other = body.joints.get("right_" + role.removeprefix("left_"))
+        if role.startswith("left_") and other is not None and max(lengths[joint], lengths[other]) > 0.1:
+            ratio = float(lengths[joint] / max(lengths[other], 1e-9))
+            if not 0.9 < ratio < 1.11:
+                yield (
+                    f"left and right differ: the bone to the {role.removeprefix('left_')} is {lengths[joint]:.3f} m on "
+                    f"the left, {lengths[other]:.3f} m on the right"
+                )
