@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import msgspec
 
 from onbeat.dance.document import DanceDocument
+from onbeat.formats.report import FileReport
 from onbeat.music.song import SongDocument
 
 PAGE = Path(__file__).parent / "documents.md"
@@ -36,6 +37,7 @@ DOCUMENTS = (
         "song.json", SongDocument, "Written by `onbeat listen SONG -o song.json` and, as danced to, by `onbeat dance`."
     ),
     Document("dance.json", DanceDocument, "Written by `onbeat dance` beside the motion."),
+    Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),
 )
 
 
@@ -72,7 +74,8 @@ def kind(schema: dict[str, Any]) -> str:
         return f"`{ref.rsplit('/', 1)[-1]}`"
     if schema["type"] == "array":
         return f"list of {kind(schema['items'])}"
-    return {"object": "object", "integer": "whole number", "number": "number", "string": "text"}[schema["type"]]
+    words = {"object": "object", "integer": "whole number", "string": "text", "boolean": "yes or no"}
+    return words.get(schema["type"], schema["type"])
 
 
 if __name__ == "__main__":

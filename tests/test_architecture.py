@@ -196,7 +196,7 @@ def test_importing_onbeat_is_quick():
 
 
 def test_tests_mirror_the_source():
-    beside = {"browser", "fuzz", "golden", "laws", "gallery"}
+    beside = {"blender", "browser", "fuzz", "golden", "laws", "gallery"}
     rooms = {path.name for path in SOURCE.iterdir() if path.is_dir() and path.name != "__pycache__"}
     tests = {path.parent.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").rglob("*/test_*.py")}
     assert tests <= rooms | beside, f"tests of rooms that are not: {sorted(tests - rooms - beside)}"

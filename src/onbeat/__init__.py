@@ -6,17 +6,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from onbeat.errors import OnbeatError
-from onbeat.motion import Body, Motion, Skeleton
+from onbeat.motion import Body, Markers, Motion, Skeleton
 from onbeat.music import Song, listen
 
 if TYPE_CHECKING:
     from onbeat.dance.make import Dance, make_dance
-    from onbeat.formats import read_motion, write_motion
+    from onbeat.formats import read_markers, read_motion, write_markers, write_motion
     from onbeat.moves.library import MoveLibrary
 
 __all__ = [
     "Body",
     "Dance",
+    "Markers",
     "Motion",
     "MoveLibrary",
     "OnbeatError",
@@ -25,7 +26,9 @@ __all__ = [
     "__version__",
     "listen",
     "make_dance",
+    "read_markers",
     "read_motion",
+    "write_markers",
     "write_motion",
 ]
 __version__ = "0.1.0"
@@ -34,7 +37,9 @@ _ON_DEMAND = {
     "Dance": "onbeat.dance.make",
     "MoveLibrary": "onbeat.moves.library",
     "make_dance": "onbeat.dance.make",
+    "read_markers": "onbeat.formats",
     "read_motion": "onbeat.formats",
+    "write_markers": "onbeat.formats",
     "write_motion": "onbeat.formats",
 }
 """Imported when first asked for, so that ``import onbeat`` stays quick."""

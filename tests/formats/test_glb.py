@@ -118,3 +118,43 @@ def test_the_same_motion_gives_the_same_bytes():
 def test_other_conventions_are_refused(tmp_path):
     with pytest.raises(FormatError, match="always in metres with Y up"):
         write_motion(swinging(person()), tmp_path / "a.glb", Convention("z", "m"))
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_no_32_bit_number_holds_is_refused():
+    far = swinging(person()).replace(root_positions=np.full((60, 3), 1e39))
+    with pytest.raises(FormatError, match=r"lengths that no \.glb file can hold"):
+        glb_bytes(far)
+    with pytest.raises(FormatError, match=r"times of frames that no \.glb file can hold"):
+        glb_bytes(swinging(person()).replace(fps=1e-300))
+    with pytest.raises(FormatError, match="too close for the times"):
+        glb_bytes(swinging(person()).replace(fps=1e300))
+
+
+def test_more_joints_than_16_bits_count_are_refused():
+    count = 2**16 + 1
+    skeleton = Skeleton([str(n) for n in range(count)], [-1, *[0] * (count - 1)], np.zeros((count, 3)))
+    with pytest.raises(FormatError, match="up to 65536 joints, the motion has 65537"):
+        glb_bytes(swinging(skeleton, frames=1))
+
+
+def test_bones_that_are_one_are_drawn_once():
+    one = Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], [0, 0, 1.0]])
+    twins = Skeleton(["a", "b", "c"], [-1, 0, 0], [[0, 0, 0], [0, 0, 1.0], [0, 0, 1.0]])
+    forked = Skeleton(["a", "b", "c"], [-1, 0, 0], [[0, 0, 0], [0, 0, 1.0], [0, 1.0, 0]])
+    assert len(body_mesh(twins).vertices) == len(body_mesh(one).vertices) < len(body_mesh(forked).vertices)
+
+
+def test_a_head_and_hands_are_drawn_where_a_file_ends_with_their_joints():
+    whole = person()
+    ends = {"Head_end", "LeftWrist_end", "RightWrist_end"}
+    kept = [joint for joint, name in enumerate(whole.names) if name not in ends]
+    parents = [kept.index(p) if p >= 0 else -1 for p in whole.parents[kept].tolist()]
+    short = Skeleton([whole.names[j] for j in kept], parents, whole.offsets[kept], whole.end_sites[kept])
+    for skeleton in (whole, short):
+        mesh = body_mesh(skeleton)
+        head = mesh.vertices[mesh.joints == skeleton.index("Head")]
+        assert np.ptp(head[:, 2]) == pytest.approx(0.24, abs=0.04)
+        assert np.ptp(mesh.vertices[:, 2]) == pytest.approx(1.78, abs=0.1)
+        for side in ("Left", "Right"):
+            assert np.ptp(mesh.vertices[mesh.joints == skeleton.index(f"{side}Wrist"), 0]) > 0.12

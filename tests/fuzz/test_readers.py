@@ -4,9 +4,10 @@ import contextlib
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
+from fuzzing import patient
 from onbeat.errors import FormatError
 from onbeat.formats.asfamc import read_amc
 from onbeat.formats.bvh import parse_bvh, read_bvh
@@ -55,14 +56,14 @@ def damaged(draw, text: str) -> str:
     return text
 
 
-@settings(max_examples=300, deadline=2000)
+@patient
 @given(damaged(BVH))
 def test_damaged_bvh(text):
     with contextlib.suppress(FormatError):
         assert len(parse_bvh(text, "a.bvh")) > 0
 
 
-@settings(max_examples=200, deadline=2000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@patient
 @given(asf=st.one_of(st.just(ASF), damaged(ASF)), amc=st.one_of(st.just(AMC), damaged(AMC)))
 def test_damaged_asf_and_amc(tmp_path, asf, amc):
     (tmp_path / "a.asf").write_text(asf, encoding="utf-8", errors="replace")
@@ -71,7 +72,7 @@ def test_damaged_asf_and_amc(tmp_path, asf, amc):
         assert len(read_amc(tmp_path / "a.amc", 120)) > 0
 
 
-@settings(max_examples=100, deadline=2000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@patient
 @given(content=st.binary(max_size=300))
 def test_bytes_that_are_no_motion(tmp_path: Path, content):
     path = tmp_path / "a.x"

@@ -37,8 +37,13 @@ COMMANDS = {
     ),
     "convert": (
         "onbeat.cli.convert:convert_command",
-        "Convert a motion file: BVH, ASF/AMC or npz in, BVH, GLB or npz out.",
-        "onbeat convert 05_01.amc dance.glb --source-fps 120",
+        "Convert motion files: any that is read in, any that is written out; cut, joined, mirrored, scaled on the way.",
+        "onbeat convert 05_01.amc dance.glb --source-fps 120 --ground",
+    ),
+    "info": (
+        "onbeat.cli.info:info_command",
+        "Say what is in a motion file: body, rate, unit, roles, contacts, and what is wrong with it.",
+        "onbeat info dance.bvh",
     ),
 }
 """Of each command: where it is, what it does in a sentence, and an example."""

@@ -1,65 +1,175 @@
-"""``onbeat convert``: a motion file in another format."""
+"""``onbeat convert``: motion files in another format, cut, joined, turned, scaled on the way."""
 
 from __future__ import annotations
 
 import sys
-import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
 import cyclopts
-import numpy as np
 
+from onbeat.cli.progress import warnings_as_lines
 from onbeat.errors import FormatError
-from onbeat.formats import Convention, read_motion, write_motion
-from onbeat.formats.asfamc import RateWarning
-from onbeat.motion import Motion
+from onbeat.formats import read_file, read_motion, write_markers, write_motion
+from onbeat.formats.conventions import Convention, Up
+from onbeat.formats.read import fitted
+from onbeat.formats.registry import Format, writing
+from onbeat.formats.tracking import JointOrder, write_tracking
+from onbeat.motion import Markers, Motion
+from onbeat.motion.edit import concatenated, cropped, scaled, stature
+from onbeat.motion.floor import on_floor
 from onbeat.motion.mirror import mirrored
 from onbeat.motion.retarget import retarget
+from onbeat.motion.role_file import Roles, read_roles
+
+Unit = Literal["m", "cm", "mm", "in", "cmu"]
+Flag = cyclopts.Parameter(negative="")
+
+
+@dataclass
+class Options:
+    """What is done on the way.
+
+    Parameters
+    ----------
+    fps
+        Frames a second of the new file.
+    source_fps
+        The rate of the source, where it stores none (AMC, robot CSV) or a wrong one.
+    source_up
+        The axis of the source that points up, where the guess is wrong.
+    source_unit
+        The unit of the source, where the guess is wrong; cmu is the length of CMU's files.
+    up
+        Up axis of the new file, where its format leaves it free.
+    unit
+        Unit of the new file, where its format leaves it free.
+    start
+        Leave out what comes before this second.
+    end
+        Leave out what comes from this second on.
+    blend
+        Seconds in which one source fades into the next; without it they follow each other.
+    like
+        Move it over to the skeleton of this motion file.
+    mirror
+        Left becomes right.
+    height
+        Scale the body, and its path, to this height in metres.
+    scale
+        Scale the body, and its path, by this factor.
+    ground
+        Put the feet on a floor at height 0, where they stand higher or lower.
+    roles
+        A roles file (TOML) that says which joint or marker is what; by default the one beside a source.
+    joint_order
+        Order of the joints in a .tracking.npz: mujoco (mjlab) or isaac (Isaac Lab).
+    """
+
+    fps: float | None = None
+    source_fps: float | None = None
+    source_up: Up | None = None
+    source_unit: Unit | None = None
+    up: Up | None = None
+    unit: Unit | None = None
+    start: float = 0.0
+    end: float | None = None
+    blend: float = 0.0
+    like: Path | None = None
+    mirror: Annotated[bool, Flag] = False
+    height: float | None = None
+    scale: float | None = None
+    ground: Annotated[bool, Flag] = False
+    roles: Path | None = None
+    joint_order: JointOrder = "mujoco"
+
+
+DEFAULT = Options()
 
 
 def convert_command(
-    source: Annotated[Path, cyclopts.Parameter(name=["SOURCE"], help="A .bvh, .amc (.asf beside it) or .npz file.")],
-    target: Annotated[Path, cyclopts.Parameter(name=["TARGET"], help="The .bvh, .glb or .npz file to write.")],
-    /,
-    *,
-    fps: Annotated[float | None, cyclopts.Parameter(help="Frames a second of the new file.")] = None,
-    source_fps: Annotated[
-        float | None, cyclopts.Parameter(help="The rate of SOURCE, where it stores none (AMC) or a wrong one.")
-    ] = None,
-    up: Annotated[Literal["y", "z"] | None, cyclopts.Parameter(help="Up axis of a BVH file; y by default.")] = None,
-    unit: Annotated[Literal["m", "cm"] | None, cyclopts.Parameter(help="Unit of a BVH file; cm by default.")] = None,
-    like: Annotated[Path | None, cyclopts.Parameter(help="Move it over to the skeleton of this motion file.")] = None,
-    mirror: Annotated[bool, cyclopts.Parameter(negative="", help="Left becomes right.")] = False,
+    *files: Annotated[Path, cyclopts.Parameter(name=["SOURCE... TARGET"])],
+    options: Annotated[Options, cyclopts.Parameter(name="*")] = DEFAULT,
 ) -> None:
-    """Convert a motion file: BVH, ASF/AMC or npz in, BVH, GLB or npz out."""
-    for rate in (fps, source_fps):
+    """Convert motion files: any that is read in, any that is written out; cut, joined, mirrored, scaled on the way.
+
+    Parameters
+    ----------
+    files
+        One or more files to read, put together one after the other, and last the file to write.
+    options
+        What is done on the way.
+    """
+    if len(files) < 2:
+        raise FormatError(f"{len(files)} files given; a file to read and one to write are expected")
+    *sources, target = files
+    into = writing(target)
+    _check(options)
+    told = None if options.roles is None else read_roles(options.roles)
+    with warnings_as_lines():
+        found = _joined([_read(source, into, options, told) for source in sources], options)
+    if isinstance(found, Markers):
+        write_markers(found, target, up=options.up, unit=options.unit)
+        print(f"{target}: {_length(found)}, {len(found.names)} markers", file=sys.stderr)  # noqa: T201
+        return
+    motion = _changed(found, options)
+    if into.suffix == ".tracking.npz" and options.joint_order != "mujoco":
+        write_tracking(motion, target, joint_order=options.joint_order)
+    else:
+        write_motion(motion, target, up=options.up, unit=options.unit)
+    print(f"{target}: {_length(motion)}, {_body(motion)}", file=sys.stderr)  # noqa: T201
+
+
+def _check(options: Options) -> None:
+    for rate in (options.fps, options.source_fps):
         if rate is not None and not 0.1 <= rate <= 10000:
             raise FormatError(f"{rate} frames a second cannot be; give a rate from 0.1 to 10000")
-    convention = None if up is None and unit is None else Convention(up or "y", unit or "cm")
-    motion = _read(source, source_fps)
-    if like is not None:
-        other = _read(like, None)
+    if options.height is not None and options.scale is not None:
+        raise FormatError("--height and --scale are both given; give one of them")
+    if options.height is not None and not 0.01 <= options.height <= 1000:
+        raise FormatError(f"a body of {options.height:g} m cannot be; give a height from 0.01 to 1000")
+    if not 0 <= options.blend <= 10:
+        raise FormatError(f"a blend of {options.blend:g} s cannot be; give one from 0 to 10")
+    if options.unit is not None:
+        Convention("z", options.unit)
+
+
+def _read(source: Path, into: Format, options: Options, told: Roles | None) -> Motion | Markers:
+    """Markers stay markers where the target holds them and nothing is asked for that only a body can have."""
+    found = read_file(source, options.source_fps, options.source_up, options.source_unit, told)
+    if isinstance(found, Motion):
+        return found
+    bodily = options.like or options.mirror or options.height or options.scale or options.ground
+    return found if into.write_markers and not bodily else fitted(found, source, told).motion
+
+
+def _joined(found: list[Motion | Markers], options: Options) -> Motion | Markers:
+    if len(found) == 1:
+        if isinstance(one := found[0], Motion):
+            return cropped(one, options.start, options.end)
+        one = cropped(one, options.start, options.end)
+        return one.resampled(options.fps) if options.fps else one
+    bodies = [each for each in found if isinstance(each, Motion)]
+    if len(bodies) < len(found):
+        raise FormatError("files of markers are converted one by one; give one source, or write a body's motion")
+    return cropped(concatenated(bodies, options.blend), options.start, options.end)
+
+
+def _changed(motion: Motion, options: Options) -> Motion:
+    if options.like is not None:
+        other = read_motion(options.like)
         motion = retarget(motion, other.skeleton, other)
-    motion = mirrored(motion) if mirror else motion
-    motion = motion if fps is None else motion.resampled(fps)
-    write_motion(motion, target, convention)
-    print(f"{target}: {_described(motion)}", file=sys.stderr)  # noqa: T201
+    motion = mirrored(motion) if options.mirror else motion
+    factor = options.scale if options.height is None else options.height / stature(motion)
+    motion = motion if factor is None else scaled(motion, factor)
+    motion = on_floor(motion) if options.ground else motion
+    return motion if options.fps is None else motion.resampled(options.fps)
 
 
-def _read(path: Path, fps: float | None) -> Motion:
-    """Read; an assumed rate is told in one line on stderr."""
-    with warnings.catch_warnings(record=True) as noted:
-        warnings.simplefilter("always", RateWarning)
-        motion = read_motion(path, fps)
-    for warning in noted:
-        print(f"onbeat: {path.name}: {warning.message}", file=sys.stderr)  # noqa: T201
-    return motion
+def _length(found: Motion | Markers) -> str:
+    return f"{len(found)} frames, {found.duration:.2f} s at {found.fps:g} frames a second"
 
 
-def _described(motion: Motion) -> str:
-    height = float(np.percentile(np.ptp(motion.positions[..., 2], axis=1), 90))
-    return (
-        f"{len(motion)} frames, {motion.duration:.2f} s at {motion.fps:g} frames a second, "
-        f"{len(motion.skeleton)} joints, {height:.2f} m tall"
-    )
+def _body(motion: Motion) -> str:
+    return f"{len(motion.skeleton)} joints, {stature(motion):.2f} m tall"

@@ -233,7 +233,7 @@ def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages
     import msgspec
 
     from onbeat.files import write_atomically
-    from onbeat.formats.registry import write_motion
+    from onbeat.formats.write import write_motion
     from onbeat.viewer.page import write_page
 
     stages("writing", 0.0)

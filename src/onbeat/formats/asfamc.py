@@ -21,6 +21,7 @@ from onbeat.errors import FormatError
 from onbeat.formats.amc import read_columns
 from onbeat.formats.asf import Acclaim, Bone, read_asf
 from onbeat.formats.conventions import Convention, Up, z_up_motion
+from onbeat.formats.notes import tell
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
@@ -59,11 +60,15 @@ def read_amc(
     if fps is None:
         fps = _SLOWER_SUBJECTS.get(path.stem.partition("_")[0], ASSUMED_FPS)
         warnings.warn(
-            f"AMC files store no frame rate: {fps:g} frames a second are assumed; give another with --fps of "
-            "`onbeat moves build`, or --source-fps of `onbeat convert`",
+            f"AMC files store no frame rate: {fps:g} frames a second are assumed; give another with --fps "
+            "(--source-fps of `onbeat convert`)",
             RateWarning,
             stacklevel=3,
         )
+        tell("fps", f"{fps:g}", "AMC files store none; CMU's are of 120, but for a few subjects")
+    tell("up", up or "y", "it is given" if up else "Acclaim files have Y up")
+    length = 0.0254 / acclaim.metres
+    tell("unit", unit or f"{acclaim.metres:.6g} m", "it is given" if unit else f"an inch is {length:g} in its :units")
     metres = acclaim.metres if unit is None else Convention("y", unit).metres
     return z_up_motion(_motion(acclaim, columns, radians, fps, path), metres, up or "y")
 

@@ -9,6 +9,7 @@ import numpy as np
 from onbeat._shapes import Ints, Positions
 from onbeat.errors import BodyError
 from onbeat.motion import Body, Skeleton
+from onbeat.motion.body import ancestors
 
 SIDES = 10
 _ADULT_LEG = 0.82
@@ -29,6 +30,8 @@ _RADII = {
     "toe": (0.03, 0.022),
 }
 """Metres at the start and the end of the bones that hang on a joint, for an adult, by the joint's role."""
+_TIPS = {"head": (0.06, 0.115), "left_wrist": (0.0, 0.13), "right_wrist": (0.0, 0.13)}
+"""Metres beyond a joint at which the ball-ended body part starts and ends, for an adult whose file ends there."""
 
 
 class Bone(NamedTuple):
@@ -56,7 +59,11 @@ class Mesh(NamedTuple):
 
 def body_mesh(skeleton: Skeleton) -> Mesh:
     """The mesh of a skeleton in its rest pose with the root at the origin."""
-    bones = [*_bones(skeleton), *_ribs(skeleton)]
+    body = _body(skeleton)
+    bones = _bones(skeleton, body)
+    if body is not None:
+        bones += [*_ribs(body), *_tips(body, {bone.owner for bone in bones})]
+    bones = bones or [Bone(np.zeros(3), np.array([0, 0, 1e-3]), 0.05, 0.05, 0)]
     parts = [_capsule(bone) for bone in bones]
     owners = [bone.owner for bone in bones]
     counts = [len(points) for points, _, _ in parts]
@@ -69,31 +76,34 @@ def body_mesh(skeleton: Skeleton) -> Mesh:
     )
 
 
-def _bones(skeleton: Skeleton) -> list[Bone]:
-    """Start, end, radii and moving joint of each bone that has a length, twins once; a ball where there is none."""
-    rest, radii = skeleton.rest_positions, _radii(skeleton)
+def _body(skeleton: Skeleton) -> Body | None:
+    try:
+        return Body.of(skeleton)
+    except BodyError:
+        return None
+
+
+def _bones(skeleton: Skeleton, body: Body | None) -> list[Bone]:
+    """Start, end, radii and moving joint of each bone that has a length, twins once."""
+    rest, radii = skeleton.rest_positions, _radii(skeleton, body)
     made: list[Bone] = []
+    there: set[tuple[float, ...]] = set()
     for joint in range(1, len(skeleton)):
         parent, length = int(skeleton.parents[joint]), float(skeleton.bone_lengths[joint])
-        twin = any(
-            np.allclose(skeleton.offsets[k], skeleton.offsets[joint]) for k in skeleton.children[parent] if k < joint
-        )
-        if length > 1e-4 and not twin:
+        twin = (parent, *np.round(skeleton.offsets[joint], 6).tolist())
+        if length > 1e-4 and twin not in there:
+            there.add(twin)
             start, end = radii[parent]
             start, end = min(start, 0.6 * length + 0.01), min(end, 0.6 * length + 0.01)
             # The ball at a tip ends there; at a joint it is centred there.
             short = min(end, 0.9 * length) / length if skeleton.end_sites[joint] else 0.0
             made.append(Bone(rest[parent], rest[joint] - short * skeleton.offsets[joint], start, end, parent))
-    return made or [Bone(rest[0], rest[0] + [0, 0, 1e-3], 0.05, 0.05, 0)]
+    return made
 
 
-def _ribs(skeleton: Skeleton) -> list[Bone]:
+def _ribs(body: Body) -> list[Bone]:
     """From the chest most of the way to each shoulder, so that the trunk is broader than it is deep."""
-    try:
-        body = Body.of(skeleton)
-    except BodyError:
-        return []
-    rest, chest, size = skeleton.rest_positions, body["chest"], _size(body)
+    rest, chest, size = body.skeleton.rest_positions, body["chest"], _size(body)
     made: list[Bone] = []
     for shoulder in body.indices("left_shoulder", "right_shoulder").tolist():
         end = rest[chest] + 0.7 * (rest[shoulder] - rest[chest])
@@ -102,16 +112,27 @@ def _ribs(skeleton: Skeleton) -> list[Bone]:
     return made
 
 
+def _tips(body: Body, owners: set[int]) -> list[Bone]:
+    """A head and hands where a file ends with their joints, on along the bones that lead there."""
+    skeleton, size, made = body.skeleton, _size(body), list[Bone]()
+    for role, (low, high) in _TIPS.items():
+        joint = body.joints.get(role, 0)
+        length = float(skeleton.bone_lengths[joint])
+        if length > 1e-4 and not any(joint in ancestors(skeleton, owner) for owner in owners):
+            along = size / length * skeleton.offsets[joint]
+            at, (start, end) = skeleton.rest_positions[joint], _RADII[role.split("_")[-1]]
+            made.append(Bone(at + low * along, at + high * along, start * size, end * size, joint))
+    return made
+
+
 def _size(body: Body) -> float:
     """How much larger a body is than an adult, by its legs."""
     return min(max(body.leg_length / _ADULT_LEG, 0.2), 3.0)
 
 
-def _radii(skeleton: Skeleton) -> list[tuple[float, float]]:
+def _radii(skeleton: Skeleton, body: Body | None) -> list[tuple[float, float]]:
     """Radii for the bones below each joint: those of its role, or of the nearest role above it."""
-    try:
-        body = Body.of(skeleton)
-    except BodyError:
+    if body is None:
         return [(0.03, 0.025)] * len(skeleton)
     size = _size(body)
     by_joint = {joint: _RADII[role.split("_")[-1]] for role, joint in body.joints.items()}

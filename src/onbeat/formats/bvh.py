@@ -89,13 +89,13 @@ def _in_utf8(file: BinaryIO, size: int) -> tuple[BinaryIO, int]:
 
 def _header(file: BinaryIO, label: str) -> tuple[bytes, bytes]:
     """What is above the word MOTION, with the line break before it, and what was read beyond it."""
-    data, block = b"", 1 << 17
+    data, block = bytearray(), 1 << 17
     while (found := _MOTION.search(data, max(0, len(data) - block - 99))) is None:
         more = file.read(block) if len(data) < _LONGEST_HEADER else b""
-        if not more:
+        if not more or not (data or b"HIERARCHY" in more.upper() or _MOTION.search(more)):
             raise FormatError(f"{label}: no MOTION line found; a BVH file has a HIERARCHY and then MOTION")
         data += more
-    return data[: found.start() + 1], data[found.end() :] + file.read(4096)
+    return bytes(data[: found.start() + 1]), bytes(data[found.end() :]) + file.read(4096)
 
 
 def _rate(word: str, where: str) -> float:
@@ -185,7 +185,8 @@ def _without_helper_roots(motion: Motion) -> Motion:
         offsets[0] = 0
         t = np.array(t[:, 1:])
         t[:, 0] = 0
-        s = Skeleton(s.names[1:], np.maximum(s.parents[1:] - 1, -1), offsets, s.end_sites[1:])
+        parents = np.maximum(s.parents[1:] - 1, -1)
+        s = s.replace(names=s.names[1:], parents=parents, offsets=offsets, end_sites=s.end_sites[1:])
         t = t if np.ptp(t, axis=0).max() > 0 else None
         motion = Motion(s, rotations, path, motion.fps, motion.name, t)
     return motion

@@ -12,6 +12,7 @@ from onbeat.errors import FormatError
 from onbeat.formats.notes import tell
 
 MOST_JOINTS = 10_000
+LONGEST_NAME = 1000
 _CHANNEL = re.compile(r"([xyz])_?(position|rotation|translation)", re.IGNORECASE)
 
 
@@ -111,8 +112,10 @@ class _Hierarchy:
 
     def _free(self, name: str, kind: str, line: int) -> str:
         """The name, or the next free one of its kind: files do name two joints alike, the tree tells them apart."""
-        if not name:
-            raise FormatError(f"{self.label}:{line}: {kind} has no name")
+        if not 0 < len(name) <= LONGEST_NAME:
+            raise FormatError(
+                f"{self.label}:{line}: {kind} has a name of {len(name)} letters; 1 to {LONGEST_NAME} are possible"
+            )
         free, number = name, 2
         while free in self.names:
             free, number = f"{name}{number}" if kind == "END" else f"{name}_{number}", number + 1

@@ -106,7 +106,7 @@ def y_up_rotations(q: Rotations) -> Rotations:
 def z_up_motion(motion: Motion, metres: float, up: Up) -> Motion:
     """A motion as a file tells it, in metres and with Z up."""
     s, t = motion.skeleton, motion.translations
-    skeleton = Skeleton(s.names, s.parents, z_up_vectors(s.offsets, up) * metres, s.end_sites)
+    skeleton = s.replace(offsets=z_up_vectors(s.offsets, up) * metres)
     translations = None if t is None else z_up_vectors(t, up) * metres
     path = z_up_vectors(motion.root_positions, up) * metres
     return Motion(skeleton, z_up_rotations(motion.rotations, up), path, motion.fps, motion.name, translations)

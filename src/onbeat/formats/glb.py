@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pygltflib as gltf
 
-from onbeat._shapes import Positions
+from onbeat._shapes import Float32, Positions
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
 from onbeat.formats.body_mesh import body_mesh
@@ -21,6 +21,7 @@ from onbeat.formats.conventions import Convention, y_up_rotations, y_up_vectors
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
+_MOST_JOINTS = 2**16
 _COLOUR = [0.85, 0.45, 0.25, 1.0]
 
 
@@ -38,15 +39,34 @@ def write_glb(motion: Motion, path: str | Path, convention: Convention | None = 
 
 
 def glb_bytes(motion: Motion) -> bytes:
-    """The bytes of a GLB file."""
-    made = _Builder()
-    skeleton = motion.skeleton
+    """The bytes of a GLB file.
+
+    Raises
+    ------
+    FormatError
+        If there are more joints than 16 bits count, or a time or a length is beyond 32-bit floats.
+    """
+    made, skeleton = _Builder(), motion.skeleton
+    if len(skeleton) > _MOST_JOINTS:
+        raise FormatError(f"a .glb file holds up to {_MOST_JOINTS} joints, the motion has {len(skeleton)}")
+    times = _single(motion.times, "times of frames")
+    if (np.diff(times) <= 0).any():
+        raise FormatError(f"frames at {motion.fps:g} a second are too close for the times of a .glb file; resample it")
     rest = np.array(skeleton.rest_positions)
     stand = np.array([0.0, 0.0, -rest[:, 2].min()])
     made.nodes(skeleton, stand)
     made.skin_and_body(skeleton, rest + stand, stand)
     made.animation(motion)
     return made.bytes()
+
+
+def _single(array: Any, what: str) -> Float32:
+    """As 32-bit floats, which end at 3.4e38."""
+    with np.errstate(over="ignore"):
+        made = np.asarray(array, np.float32)
+    if not np.isfinite(made).all():
+        raise FormatError(f"the motion has {what} that no .glb file can hold, beyond 3e38; check its unit and its rate")
+    return made
 
 
 class _Builder:
@@ -78,7 +98,7 @@ class _Builder:
         return len(self.file.accessors) - 1
 
     def floats(self, array: Any, kind: str, target: int | None = None, bounds: bool = False) -> int:
-        return self.accessor(np.asarray(array, np.float32), kind, gltf.FLOAT, target, bounds)
+        return self.accessor(_single(array, "lengths"), kind, gltf.FLOAT, target, bounds)
 
     def nodes(self, skeleton: Skeleton, stand: Positions) -> None:
         """One node per joint in the rest pose; node and joint have the same number."""

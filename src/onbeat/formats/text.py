@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,6 +22,7 @@ LONGEST_WORD = 1 << 16
 """Bytes of the longest word there may be."""
 _COMMAS = bytes.maketrans(b" \t\n\r", b",,,,")
 _PLAIN = msgspec.json.Decoder(list[float])
+_NUMBER = re.compile(r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 _ENDS = (b" ", b"\n", b"\t", b"\r")
 _AFTER_THE_END = b" \t\r\n\x00\x1a"
 """What may follow the last word: old programs end a text with Ctrl-Z, interrupted ones with zeros."""
@@ -66,8 +68,8 @@ def pieces(file: BinaryIO, label: str, rest: bytes = b"") -> Iterator[bytes]:
     FormatError
         Where there is white space without end, or a word without end: it is no text of numbers.
     """
-    blank = 0
-    while data := file.read(CHUNK):
+    blank, data, rest = 0, rest or file.read(CHUNK), b""
+    while data:
         if data.isspace():
             blank += len(data)
             if blank > BLANK:
@@ -82,7 +84,8 @@ def pieces(file: BinaryIO, label: str, rest: bytes = b"") -> Iterator[bytes]:
         else:
             rest += data
         if len(rest) > LONGEST_WORD:
-            raise FormatError(f"{label}: a word of {len(rest)} bytes found ({rest[:20]!r}…); numbers are expected")
+            raise FormatError(f"{label}: a word of more than {LONGEST_WORD} letters found ({rest[:20]!r}…)")
+        data = file.read(CHUNK)
     if rest := rest.rstrip(_AFTER_THE_END):
         yield rest
 
@@ -117,9 +120,7 @@ def numbers(piece: bytes, line: int, label: str) -> Array:
 def _bad_number(text: str, line: int, label: str) -> FormatError:
     for number, row in enumerate(text.split("\n"), line):
         for word in row.split():
-            try:
-                float(word)
-            except ValueError:
+            if not _NUMBER.fullmatch(word):
                 hint = "; write decimals with a point" if word.count(",") == 1 else ""
                 return FormatError(f"{label}:{number}: a number is expected, {word[:40]!r} found{hint}")
     return FormatError(f"{label}: the motion after line {line} is not all numbers")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 
@@ -10,12 +11,14 @@ from onbeat._shapes import Array
 from onbeat.errors import BodyError, FormatError
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import body_frames, facing
+from onbeat.motion.markers import Markers
 from onbeat.motion.motion import Motion
-from onbeat.motion.skeleton import Skeleton
+
+Recorded = TypeVar("Recorded", Motion, Markers)
 
 
-def cropped(motion: Motion, start: float = 0.0, end: float | None = None) -> Motion:
-    """The frames shown from ``start`` until before ``end``, in seconds of the motion; its clock begins anew.
+def cropped(motion: Recorded, start: float = 0.0, end: float | None = None) -> Recorded:
+    """The frames of a motion, or of markers, shown from ``start`` until before ``end`` seconds; the clock begins anew.
 
     Raises
     ------
@@ -132,7 +135,7 @@ def scaled(motion: Motion, factor: float) -> Motion:
     if not (np.isfinite(factor) and factor > 0):
         raise FormatError(f"a scale of {factor} is not possible; a positive number is needed")
     s, t = motion.skeleton, motion.translations
-    skeleton = Skeleton(s.names, s.parents, s.offsets * factor, s.end_sites)
+    skeleton = s.replace(offsets=s.offsets * factor)
     moved = None if t is None else t * factor
     return Motion(skeleton, motion.rotations, motion.root_positions * factor, motion.fps, motion.name, moved)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -62,7 +63,7 @@ class Markers:
             raise FormatError(f"{label} have positions of shape {self.positions.shape}; (frames, {count}, 3) is needed")
         if not count or not len(self.positions):
             raise FormatError(f"{label}: {len(self.positions)} frames of {count} markers hold no motion")
-        twice = sorted({name for name in self.names if self.names.count(name) > 1})
+        twice = sorted(name for name, times in Counter(self.names).items() if times > 1)
         if twice:
             raise FormatError(f"{label}: labels occur twice: {', '.join(twice)}; rename them")
         if not (np.isfinite(self.fps) and self.fps > 0):

@@ -146,6 +146,7 @@ class Motion:
     def replace(
         self,
         *,
+        skeleton: Skeleton | None = None,
         rotations: Rotations | None = None,
         root_positions: Positions | None = None,
         fps: float | None = None,
@@ -153,7 +154,7 @@ class Motion:
     ) -> Motion:
         """A copy with some fields changed."""
         return Motion(
-            self.skeleton,
+            self.skeleton if skeleton is None else skeleton,
             self.rotations if rotations is None else rotations,
             self.root_positions if root_positions is None else root_positions,
             self.fps if fps is None else fps,

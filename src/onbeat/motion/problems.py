@@ -16,6 +16,7 @@ from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.contacts import foot_contacts, point_speeds
 from onbeat.motion.edit import stature
+from onbeat.motion.floor import is_on_floor
 from onbeat.motion.motion import Motion
 from onbeat.motion.retarget import floor_height
 
@@ -27,8 +28,6 @@ LEAP = 12.0
 """m/s faster than anybody moves."""
 STILL = 0.5
 """Seconds without any change in the last bit: nobody stands so."""
-UNDER_FLOOR, OVER_FLOOR = -0.03, 0.08
-"""Metres between which the lowest joint of standing feet is taken to be on the floor: it is above the sole."""
 SKATE = 0.15
 """m/s (mean) of feet that rest."""
 SIZES = (0.6, 2.4)
@@ -143,9 +142,8 @@ def _stretching(motion: Motion) -> Iterator[str]:
 
 
 def _floor(motion: Motion, body: Body) -> Iterator[str]:
-    height = floor_height(motion, body)
-    if not UNDER_FLOOR <= height <= OVER_FLOOR:
-        yield f"feet stand at {height:+.2f} m (`onbeat convert --ground` puts them at 0)"
+    if not is_on_floor(motion, body):
+        yield f"feet stand at {floor_height(motion, body):+.2f} m (`onbeat convert --ground` puts them on 0)"
 
 
 def _feet(motion: Motion, body: Body) -> Iterator[str]:

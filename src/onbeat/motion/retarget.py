@@ -20,6 +20,7 @@ from onbeat.motion.body import Body, ancestors, facing, frames_from
 from onbeat.motion.kinematics import forward_kinematics, local_rotations
 from onbeat.motion.motion import Motion
 from onbeat.motion.skeleton import Skeleton
+from onbeat.motion.tree import Tree
 
 _LIMBS = {"shoulder": "elbow", "elbow": "wrist", "wrist": "hand", "hip": "knee", "knee": "ankle", "ankle": "toe"}
 _ABOVE = {"wrist": "elbow", "hand": "wrist", "toe": "ankle", "head": "neck", "neck": "chest", "spine": "hips"}
@@ -79,7 +80,8 @@ def floor_height(motion: Motion, body: Body | None = None) -> float:
     """
     body = Body.of(motion.skeleton) if body is None else body
     ankles = set(body.indices("left_ankle", "right_ankle").tolist())
-    feet = [j for j in range(len(motion.skeleton)) if ankles & set(ancestors(motion.skeleton, j))]
+    tree = Tree.of(motion.skeleton)
+    feet = [j for j in range(len(motion.skeleton)) if any(j == ankle or tree.above(ankle, j) for ankle in ankles)]
     points = motion.positions[:, feet]
     lowest = points[..., 2].argmin(axis=1)
     height = points[np.arange(len(motion)), lowest, 2]
@@ -143,7 +145,8 @@ def _by_roles(motion: Motion, source: Body, target: Body, reference: Motion | No
     turns = _bone_turns(source, source_pose, target, target_pose)
     moved: dict[int, Rotations] = {}
     for role, turn in turns.items():
-        change = rot.multiply(motion.world_rotations[:, source[role]], rot.inverse(source_world[source[role]]))
+        joint = source.turning(role)
+        change = rot.multiply(motion.world_rotations[:, joint], rot.inverse(source_world[joint]))
         moved[target[role]] = rot.multiply(change, turn)
     world = rot.multiply(_all_joints(target, moved), target_world)
     return local_rotations(target.skeleton, world)

@@ -18,6 +18,7 @@ from onbeat.moves.library import CLIP_RATE, SHORTEST, Clip
 from onbeat.moves.recordings import Recording
 
 MIRROR_SUFFIX = "~mirror"
+GUESSED = "no names tell which joints are arms and legs: guessed from the rest pose; a roles file beside it tells them"
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,8 @@ class Read:
 
 
 def skeleton_digest(skeleton: Skeleton) -> str:
-    """SHA-256 of all of a skeleton."""
-    total = hashlib.sha256(repr(skeleton.names).encode())
+    """SHA-256 of all of a skeleton, with what is told of its joints."""
+    total = hashlib.sha256(repr((skeleton.names, *skeleton.roles.items())).encode())
     for array in (skeleton.parents, skeleton.offsets, skeleton.end_sites):
         total.update(array.tobytes())
     return total.hexdigest()
@@ -54,7 +55,7 @@ def read_recording(recording: Recording) -> Read:
         warnings.simplefilter("always", UserWarning)
         try:
             motion = recording.read()
-            Body.of(motion.skeleton)
+            how = Body.of(motion.skeleton).how
         except (OnbeatError, OSError) as error:
             raise LibraryError(_one_line(error, recording)) from None
     if motion.duration < SHORTEST:
@@ -62,6 +63,7 @@ def read_recording(recording: Recording) -> Read:
     body, seconds = skeleton_digest(motion.skeleton), motion.duration
     motion = motion if motion.fps <= CLIP_RATE + 1e-6 else motion.resampled(CLIP_RATE)
     notes = tuple(dict.fromkeys(_one_line(warning.message, recording) for warning in noted))
+    notes += (GUESSED,) if "guess" in how.values() else ()
     return Read(recording, body, seconds, notes, lambda: motion)
 
 

@@ -51,23 +51,30 @@ class Clips(msgspec.Struct, forbid_unknown_fields=True):
     stops: int
 
 
-class Body(msgspec.Struct, forbid_unknown_fields=True):
-    """A skeleton."""
+class Body(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
+    """A skeleton.
+
+    Parameters
+    ----------
+    names, parents, offsets, end_sites : as of ``Skeleton``.
+    roles : what is told of its joints, role to joint name; left out where nothing is.
+    """
 
     names: list[str]
     parents: list[int]
     offsets: list[tuple[float, float, float]]
     end_sites: list[bool]
+    roles: dict[str, str] = {}  # msgspec copies it
 
     @classmethod
     def of(cls, skeleton: Skeleton) -> Body:
         """Lists of a skeleton's arrays."""
-        s = skeleton
-        return cls(list(s.names), s.parents.tolist(), [tuple(row) for row in s.offsets.tolist()], s.end_sites.tolist())
+        s, offsets = skeleton, [tuple(row) for row in skeleton.offsets.tolist()]
+        return cls(list(s.names), s.parents.tolist(), offsets, s.end_sites.tolist(), dict(s.roles))
 
     def skeleton(self) -> Skeleton:
         """The skeleton, exact to the last bit."""
-        return Skeleton(self.names, self.parents, self.offsets, self.end_sites)
+        return Skeleton(self.names, self.parents, self.offsets, self.end_sites, roles=self.roles)
 
 
 class Problem(msgspec.Struct, forbid_unknown_fields=True):

@@ -12,8 +12,9 @@ from pathlib import Path
 
 from onbeat.errors import FormatError, LibraryError
 from onbeat.formats.asfamc import skeleton_file
-from onbeat.formats.registry import motion_files, read_motion
+from onbeat.formats.read import motion_files, read_motion
 from onbeat.motion.motion import Motion
+from onbeat.motion.role_file import roles_beside
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Recording:
     ----------
     name : for people and plans, no two alike in a library.
     file : where it was found, relative to the folder that was given.
-    digest : SHA-256 of its content (with its skeleton file's), so that what changed is known without reading it.
+    digest : SHA-256 of its content (with its skeleton and roles files'), so that what changed is known unread.
     read : reads it.
     """
 
@@ -91,12 +92,14 @@ def _names(labels: list[str]) -> list[str]:
 
 
 def content_digest(file: Path) -> str:
-    """SHA-256 of a motion file and, for AMC, of its skeleton file; unreadable files have none ("")."""
+    """SHA-256 of a motion file with its roles file and, for AMC, its skeleton file; unreadable files have none ("")."""
     total = hashlib.sha256()
     try:
         total.update(file.read_bytes())
         if file.suffix.lower() == ".amc":
             total.update(skeleton_file(file).read_bytes())
+        if (roles := roles_beside(file)) is not None:
+            total.update(roles.read_bytes())
     except OSError:
         return ""
     except FormatError:
@@ -106,7 +109,8 @@ def content_digest(file: Path) -> str:
 
 def motion_digest(motion: Motion) -> str:
     """SHA-256 of a motion in memory."""
-    total = hashlib.sha256(repr((motion.skeleton.names, motion.fps)).encode())
+    told = motion.skeleton.roles.items()
+    total = hashlib.sha256(repr((motion.skeleton.names, motion.fps, *told)).encode())
     skeleton = motion.skeleton
     for array in (skeleton.parents, skeleton.offsets, skeleton.end_sites, motion.rotations, motion.root_positions):
         total.update(array.tobytes())

@@ -1,0 +1,30 @@
+"""Markers become a body that can dance: write a C3D file with gaps, fit a skeleton to it, see what is told."""
+
+import sys
+
+import numpy as np
+
+import onbeat
+from onbeat.examples.dancers import DANCERS
+from onbeat.examples.folk_dance import FOLK_DANCE
+from onbeat.examples.performer import perform
+from onbeat.files import make_folder
+from onbeat.formats.report import describe
+from onbeat.motion.joint_markers import joint_markers
+
+folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
+
+# A dancer's joints as markers, one of which is hidden for half a second, as in a studio.
+danced = perform(DANCERS[0], [FOLK_DANCE], speed=1.0, cycles=1, rng=np.random.default_rng(0))
+markers = joint_markers(danced.motion)[:300]
+seen = np.array(markers.positions)
+seen[100:130, markers.index("LeftHand")] = np.nan
+onbeat.write_markers(onbeat.Markers(markers.names, seen, markers.fps), folder / "take.c3d")
+
+# Reading it as motion fits a body of constant bones; the report says how far off it is and what was filled.
+body = onbeat.read_motion(folder / "take.c3d")
+report = describe(folder / "take.c3d")
+for take in report.markers:
+    print(f"{take.gaps} gap; the fitted body is {take.residual_mm:.1f} mm off")
+print(*report.problems, sep="\n")
+onbeat.write_motion(body, folder / "take.glb")

@@ -1,0 +1,28 @@
+"""What is noted of a recording when it is read."""
+
+import pytest
+
+from onbeat.errors import LibraryError
+from onbeat.motion import Skeleton
+from onbeat.moves.clips import GUESSED, read_recording
+from onbeat.moves.recordings import Recording
+from persons import along_local_axes, person, swinging
+
+
+def recording(skeleton: Skeleton) -> Recording:
+    motion = swinging(skeleton, frames=180)
+    return Recording("a", "a.npz", "", lambda: motion)
+
+
+def test_a_guessed_body_is_noted():
+    body = person()
+    nameless = body.replace(names=[f"joint{n}" for n in range(len(body))])
+    assert read_recording(recording(body)).notes == ()
+    assert read_recording(recording(nameless)).notes == (GUESSED,)
+
+
+def test_a_body_of_which_nothing_can_be_guessed_is_left_out():
+    lying = along_local_axes(swinging(person())).skeleton
+    nameless = lying.replace(names=[f"joint{n}" for n in range(len(lying))])
+    with pytest.raises(LibraryError, match=r"no joint found for .*roles\.toml"):
+        read_recording(recording(nameless))
