@@ -39,7 +39,7 @@ def close(a: Motion, b: Motion, within: float) -> None:
     np.testing.assert_allclose(pb, pa, atol=within)
 
 
-@pytest.mark.parametrize(("first", "second"), product(BODIES, repeat=2))
+@pytest.mark.parametrize(("first", "second"), list(product(BODIES, repeat=2)))
 @few
 @given(seed=SEEDS, fps=RATES, size=st.floats(0.8, 1.2))
 def test_bodies(first, second, seed, fps, size):
@@ -50,7 +50,7 @@ def test_bodies(first, second, seed, fps, size):
     close(motion, again, 1e-5)
 
 
-@pytest.mark.parametrize(("first", "second"), product(ROBOTS, repeat=2))
+@pytest.mark.parametrize(("first", "second"), list(product(ROBOTS, repeat=2)))
 @few
 @given(seed=SEEDS, fps=RATES)
 def test_robots(first, second, seed, fps):
@@ -63,7 +63,7 @@ def test_robots(first, second, seed, fps):
     close(motion, again, 2e-5)
 
 
-@pytest.mark.parametrize(("first", "second"), product(MARKERS, repeat=2))
+@pytest.mark.parametrize(("first", "second"), list(product(MARKERS, repeat=2)))
 @few
 @given(seed=SEEDS, fps=RATES)
 def test_markers(first, second, seed, fps):

@@ -27,6 +27,7 @@ def cropped(motion: Recorded, start: float = 0.0, end: float | None = None) -> R
 
     Examples
     --------
+    >>> from onbeat.motion.skeleton import Skeleton
     >>> body = Skeleton(("hips",), [-1], [[0, 0, 0]])
     >>> still = Motion(body, np.tile([1.0, 0, 0, 0], (60, 1, 1)), np.zeros((60, 3)), fps=30)
     >>> cropped(still, 0.5, 1.5).duration
