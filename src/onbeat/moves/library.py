@@ -89,7 +89,7 @@ class MoveLibrary:
     ) -> MoveLibrary:
         """Find the joins between clips, all of one skeleton; a ``LibraryError`` says if there is none to use."""
         if not clips:
-            raise LibraryError("the library has no clips; give a folder of BVH, ASF/AMC or npz motion")
+            raise LibraryError("the library has no clips; give a folder of motion files (docs/files.md)")
         clip_of = np.repeat(np.arange(len(clips)), [len(clip.poses) for clip in clips])
         first, second, distance = clip_pairs([clip.poses for clip in clips], reach, step=step)
         return cls(tuple(clips), MotionGraph.of(clip_of, first, second, distance))

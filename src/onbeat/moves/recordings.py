@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 from collections import Counter
@@ -54,7 +55,7 @@ def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Rec
             found.setdefault(file.resolve(), (file, os.fsencode(label).decode(errors="replace")))
     if not found:
         places = ", ".join(str(path) for path in paths) or "no path"
-        raise LibraryError(f"no motion files in {places}; give a folder of BVH, ASF/AMC or npz motion")
+        raise LibraryError(f"no motion files in {places}; give a folder of motion files (docs/files.md)")
     files = list(found.values())
     return [
         Recording(name, label, content_digest(file), partial(read_motion, file, fps))
@@ -67,7 +68,7 @@ def _files(path: Path) -> list[tuple[Path, str]]:
     if path.is_dir():
         return [(file, file.relative_to(path).as_posix()) for file in motion_files(path) if not _is_made(file)]
     if not path.exists():
-        raise LibraryError(f"no file or folder {path}; give a folder of BVH, ASF/AMC or npz motion")
+        raise LibraryError(f"no file or folder {path}; give a folder of motion files (docs/files.md)")
     return [(path, path.name)]
 
 
@@ -93,17 +94,20 @@ def _names(labels: list[str]) -> list[str]:
 
 def content_digest(file: Path) -> str:
     """SHA-256 of a motion file with its roles file and, for AMC, its skeleton file; unreadable files have none ("")."""
+    files = [file]
+    if file.suffix.lower() == ".amc":
+        with contextlib.suppress(FormatError):  # an AMC without its ASF; reading says so
+            files.append(skeleton_file(file))
+    if (roles := roles_beside(file)) is not None:
+        files.append(roles)
     total = hashlib.sha256()
     try:
-        total.update(file.read_bytes())
-        if file.suffix.lower() == ".amc":
-            total.update(skeleton_file(file).read_bytes())
-        if (roles := roles_beside(file)) is not None:
-            total.update(roles.read_bytes())
+        for part in files:
+            with part.open("rb") as opened:
+                while block := opened.read(1 << 20):
+                    total.update(block)
     except OSError:
         return ""
-    except FormatError:
-        pass  # an AMC without its ASF; reading says so
     return total.hexdigest()
 
 
