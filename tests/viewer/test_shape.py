@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from onbeat.motion import Body, Skeleton
+from onbeat.motion.unitree_g1 import G1
 from onbeat.viewer.figure import Figure
 from onbeat.viewer.shape import GROUPS, capsules
 
@@ -74,3 +75,17 @@ def test_hands_reach_past_the_wrists_and_heels_below_the_ankles() -> None:
     low, high = figure.bounds(skeleton.rest_positions)
     assert high[0] - low[0] > 2 * (0.7 + 0.1)
     assert low[2] + 0.95 < 0.05
+
+
+def test_a_robots_head_is_above_its_shoulders_and_its_chest_is_closed() -> None:
+    skeleton = G1.skeleton
+    ends = zip(skeleton.names, skeleton.end_sites, strict=True)
+    for robot in (skeleton, skeleton.replace(names=[f"{n}_x" if end else n for n, end in ends])):
+        body, rest = Body.of(robot), robot.rest_positions
+        made = capsules(robot, body)
+        heads = [c for c in made if c.group == "head"]
+        assert heads
+        for c in heads:
+            top = rest[c.joint_a] + c.end * (rest[c.joint_b] - rest[c.joint_a])
+            assert top[2] > rest[body["left_shoulder"], 2]
+        assert any(c.group == "torso" and c.joint_b == body["head"] for c in made)

@@ -105,7 +105,14 @@ class Trunk:
         line = [self.joints.get("neck", top)]
         while len(bare := [j for j in self.tree.children[line[-1]] if self._is_bare(j)]) == 1:
             line += bare
+        line += self._tip(line[0]) if len(line) == 1 else []
         return line[-1] if len(line) > 1 and self.tree.length(top, line[-1]) >= far > 0 else None
+
+    def _tip(self, joint: int) -> list[int]:
+        """The only end of a bone on a joint that has no side: all that files without names leave of a head."""
+        ends = [j for j in self.tree.children[joint] if self.skeleton.end_sites[j]]
+        free = [j for j in ends if (part := self.parts[j]) is None or not part.side]
+        return free if len(free) == 1 else []
 
     def _is_bare(self, joint: int) -> bool:
         """Whether a joint may be of the neck or the head: it turns, has no side, and no limb hangs on it."""

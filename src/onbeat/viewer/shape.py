@@ -83,6 +83,8 @@ def _torso(body: Body, size: float) -> list[Capsule]:
     ]
     if top != chest:
         made.append(Capsule(chest, top, 0.105, 0.06, "torso"))
+    elif "head" in body and (rise := _shoulders_above(body, chest)) > 0.15 * size:
+        made.append(Capsule(chest, body["head"], 0.1, 0.085, "torso", 0.0, rise / _length(body, chest, body["head"])))
     for shoulder, hip in ((left_shoulder, left_hip), (right_shoulder, right_hip)):
         # Out from the waist and the chest to the shoulder, and to the hip: a narrow waist, a broad chest.
         made.append(Capsule(hips, shoulder, 0.088, 0.07, "torso", 0.3, 0.9))
@@ -95,8 +97,14 @@ def _head(body: Body, size: float) -> list[Capsule]:
     base = body.joints.get("neck", body["chest"])
     head = body.joints.get("head", base)
     if head == base:
-        return [_skull(body["hips"], base, 0.28 * size, _length(body, body["hips"], base), size)]
-    neck = [Capsule(base, head, 0.084, 0.056, "torso", 0.0, 0.4), Capsule(base, head, 0.055, 0.05, "head", 0.3, 1.0)]
+        above = max(0.28 * size, _shoulders_above(body, base) + 0.24 * size)
+        return [_skull(body["hips"], base, above, _length(body, body["hips"], base), size)]
+    # Robots have their chest at the waist: the neck begins where the shoulders are.
+    collar = min(max(_shoulders_above(body, base) / max(_length(body, base, head), 1e-3), 0.0), 0.7)
+    neck = [
+        Capsule(base, head, 0.084, 0.056, "torso", collar, collar + 0.4 * (1 - collar)),
+        Capsule(base, head, 0.055, 0.05, "head", collar + 0.3 * (1 - collar), 1.0),
+    ]
     tips = [child for child in body.skeleton.children[head] if body.skeleton.bone_lengths[child] > 0.04 * size]
     if tips:
         above = float(body.skeleton.bone_lengths[tips[0]])
@@ -106,7 +114,16 @@ def _head(body: Body, size: float) -> list[Capsule]:
             head, tips[0], 0.084, 0.095, "head", (centre - 0.025 * size) / above, (centre + 0.02 * size) / above
         )
         return [*neck, skull]
-    return [*neck, _skull(base, head, 0.085 * size, _length(body, base, head), size)]
+    above = 0.0 if body.skeleton.end_sites[head] else 0.085 * size  # an end of a bone is the middle of the head
+    return [*neck, _skull(base, head, above, _length(body, base, head), size)]
+
+
+def _shoulders_above(body: Body, joint: int) -> float:
+    """Metres of the shoulders above a joint of the trunk in the rest pose, along the trunk."""
+    rest = body.skeleton.rest_positions
+    middle = (rest[body["left_shoulder"]] + rest[body["right_shoulder"]]) / 2
+    along = middle - rest[body["hips"]]
+    return float((middle - rest[joint]) @ along) / max(float(np.linalg.norm(along)), 1e-6)
 
 
 def _skull(base: int, head: int, above: float, length: float, size: float) -> Capsule:
