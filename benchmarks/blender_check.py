@@ -4,7 +4,7 @@
 
 writes each motion (without one: a dancer of the embedded troupe) in each format and prints what Blender sees beside
 what was written. Needs ``blender`` (3 or later; another is named by ONBEAT_BLENDER), usd-core for USD; the validator is
-used where ``npm i gltf-validator`` was run in the current folder or the one that ONBEAT_GLTF_VALIDATOR names.
+used where ``npm ci`` was run in viewer-js, or ``npm i gltf-validator`` in the folder that ONBEAT_GLTF_VALIDATOR names.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ def row(wanted: Wanted, seen: Seen | None) -> str:
 
 def validated(path: Path) -> str:
     """The validator's counts for a GLB file."""
-    modules = Path(os.environ.get("ONBEAT_GLTF_VALIDATOR", "")) / "node_modules"
+    beside = Path(__file__).resolve().parents[1] / "viewer-js"
+    modules = Path(os.environ.get("ONBEAT_GLTF_VALIDATOR", beside)) / "node_modules"
     if not (modules / "gltf-validator").is_dir():
         return "no gltf-validator found"
     words, environment = ["node", "-e", VALIDATE], os.environ | {"NODE_PATH": str(modules.resolve())}
