@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from onbeat.cli import COMMANDS, app
+from onbeat.cli.commands import COMMANDS, app
 from onbeat.dance.document import DanceDocument
 from onbeat.examples.song import demo_song, true_song
 from onbeat.music.song import SongDocument

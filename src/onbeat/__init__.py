@@ -6,13 +6,13 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from onbeat.errors import OnbeatError
-from onbeat.motion import Body, Markers, Motion, Skeleton
-from onbeat.music import Song, listen
 
 if TYPE_CHECKING:
     from onbeat.dance.make import Dance, make_dance
     from onbeat.formats import read_markers, read_motion, write_markers, write_motion
+    from onbeat.motion import Body, Markers, Motion, Skeleton
     from onbeat.moves.library import MoveLibrary
+    from onbeat.music import Song, listen
 
 __all__ = [
     "Body",
@@ -34,13 +34,11 @@ __all__ = [
 __version__ = "0.1.0"
 
 _ON_DEMAND = {
-    "Dance": "onbeat.dance.make",
+    **dict.fromkeys(("Body", "Markers", "Motion", "Skeleton"), "onbeat.motion"),
+    **dict.fromkeys(("read_markers", "read_motion", "write_markers", "write_motion"), "onbeat.formats"),
+    **dict.fromkeys(("Song", "listen"), "onbeat.music"),
+    **dict.fromkeys(("Dance", "make_dance"), "onbeat.dance.make"),
     "MoveLibrary": "onbeat.moves.library",
-    "make_dance": "onbeat.dance.make",
-    "read_markers": "onbeat.formats",
-    "read_motion": "onbeat.formats",
-    "write_markers": "onbeat.formats",
-    "write_motion": "onbeat.formats",
 }
 """Imported when first asked for, so that ``import onbeat`` stays quick."""
 

@@ -27,7 +27,7 @@ def write_atomically(path: str | os.PathLike[str], data: bytes) -> None:
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except OSError as error:
-        raise OnbeatError(f"cannot write {path}: {error.strerror or error}; choose another folder with -o") from None
+        raise OnbeatError(f"cannot write {path}: {error.strerror or error}; choose another folder") from None
     finally:
         if temporary:
             with contextlib.suppress(FileNotFoundError):

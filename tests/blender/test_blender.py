@@ -12,7 +12,7 @@ import pytest
 from blender.opened import Seen, Wanted, blender, bone_names, open_in_blender, seen_joints, worst_difference
 from onbeat.examples import embedded_motions
 from onbeat.formats import read_motion, write_motion
-from onbeat.formats.asfamc import RateWarning
+from onbeat.formats.rates import RateWarning
 from onbeat.formats.usd import write_usd
 from onbeat.motion import Body, Motion, Skeleton
 from onbeat.motion.body import ancestors

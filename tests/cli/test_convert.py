@@ -63,6 +63,29 @@ def test_cut_joined_scaled_and_put_on_the_ground(tmp_path, monkeypatch):
     assert -0.03 <= floor_height(joined) <= 0.08
 
 
+def test_other_bodies_are_joined_on_one(tmp_path, monkeypatch):
+    write_motion(swinging(person(), frames=30, fps=30, angle=0.2), tmp_path / "a.npz")
+    write_motion(swinging(person(1.2), frames=30, fps=30, seed=2, angle=0.2), tmp_path / "b.npz")
+    words = (tmp_path / "a.npz", tmp_path / "b.npz", tmp_path / "c.npz")
+    assert run(monkeypatch, *words) == 1
+    assert run(monkeypatch, *words, "--like", tmp_path / "a.npz") == 0
+    joined = read_motion(tmp_path / "c.npz")
+    assert len(joined) == 60
+    assert joined.skeleton == person()
+
+
+def test_what_a_reader_has_to_be_told_is_said(tmp_path, monkeypatch, capsys):
+    write_motion(swinging(person(), frames=3), tmp_path / "a.npz")
+    assert run(monkeypatch, tmp_path / "a.npz", tmp_path / "b.bvh", "--unit", "in", "--up", "x") == 0
+    assert "--source-up x --source-unit in" in capsys.readouterr().err
+
+
+def test_an_open_end_is_the_end(tmp_path, monkeypatch):
+    write_motion(swinging(person(), frames=30), tmp_path / "a.npz")
+    assert run(monkeypatch, tmp_path / "a.npz", tmp_path / "b.npz", "--end", "inf") == 0
+    assert len(read_motion(tmp_path / "b.npz")) == 30
+
+
 def test_what_a_file_leaves_open_can_be_told(tmp_path, monkeypatch):
     small = swinging(person(), frames=3)
     write_motion(small, tmp_path / "a.bvh", up="z", unit="in")
@@ -113,6 +136,13 @@ def test_a_roles_file_is_used(tmp_path, monkeypatch, capsys):
         (("a.npz", "b.bvh", "--height", "0"), "give a height"),
         (("a.npz", "b.bvh", "--height", "1", "--scale", "2"), "give one of them"),
         (("a.npz", "b.bvh", "--scale", "nan"), "a scale of nan"),
+        (("a.npz", "b.bvh", "--scale", "1e12"), "a scale of 1e+12"),
+        (("a.npz", "b.bvh", "--start", "nan"), "no frame from nan s"),
+        (("a.npz", "b.bvh", "--start", "inf"), "no frame from inf s"),
+        (("a.npz", "b.bvh", "--end", "nan"), "no frame from 0 s to nan s"),
+        (("a.npz", "b.bvh", "--joint-order", "isaac"), "--joint-order is of .tracking.npz"),
+        (("a.npz", "b.tracking.npz", "--joint-order", "isaac", "--up", "y"), "Z up"),
+        (("a.npz", "nowhere/b.bvh"), "choose another folder"),
         (("a.npz", "a.npz", "b.bvh", "--blend", "5"), "too short for a blend"),
         (("a.npz", "b.csv"), "g1"),
     ],

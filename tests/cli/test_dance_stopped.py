@@ -168,7 +168,7 @@ def test_a_full_disk_is_told_and_nothing_is_left(
     status, printed, err = run(song, "--moves", clips, "--fps", 10, "-o", out)
     assert (status, printed) == (1, "")
     assert err.splitlines()[-1] == (
-        f"onbeat: cannot write {out / 'dance.bvh'}: No space left on device; choose another folder with -o"
+        f"onbeat: cannot write {out / 'dance.bvh'}: No space left on device; choose another folder"
     )
     assert not out.exists()
 

@@ -8,7 +8,7 @@ import cyclopts
 import pytest
 from rich.console import Console
 
-from onbeat.cli import COMMANDS, app
+from onbeat.cli.commands import COMMANDS, app
 
 
 def help_of(capsys: pytest.CaptureFixture[str], *command: str) -> str:
@@ -51,6 +51,7 @@ def test_an_unknown_command_is_refused():
 
 
 def test_the_list_is_quick():
-    code = "import sys, onbeat.cli; onbeat.cli.app(['--help'], result_action='return_value'); print(*sys.modules)"
+    code = "import sys; from onbeat.cli.commands import app; app(['--help'], result_action='return_value')"
+    code += "; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert not {"numba", "matplotlib", "scipy.signal"} & set(loaded)

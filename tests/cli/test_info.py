@@ -4,7 +4,8 @@ import sys
 import pytest
 
 from onbeat.cli import main
-from onbeat.formats import write_motion
+from onbeat.formats import write_markers, write_motion
+from onbeat.motion import Markers
 from onbeat.motion.joint_markers import joint_markers
 from persons import AMC, ASF, person, swinging
 
@@ -71,6 +72,28 @@ def test_a_roles_file_to_edit(tmp_path, monkeypatch, capsys):
     assert run(monkeypatch, tmp_path / "a.npz") == 0
     shown = capsys.readouterr().out
     assert ["left_wrist", "LeftElbow", "told"] in [line.split() for line in shown.splitlines()]
+
+
+def test_a_roles_file_for_markers_to_edit(tmp_path, monkeypatch, capsys):
+    markers = joint_markers(swinging(person(), frames=20, fps=30, angle=0.2))
+    names = ["M 17" if name == "LeftWrist" else name.replace("LeftWrist_end", "M 18") for name in markers.names]
+    write_markers(Markers(names, markers.positions, 30), tmp_path / "a.c3d")
+    assert run(monkeypatch, tmp_path / "a.c3d", "--roles-template") == 0
+    text = capsys.readouterr().out
+    assert '# left_wrist = [""]' in text
+    assert '"M 17"' in text
+    (tmp_path / "a.roles.toml").write_text(text.replace('# left_wrist = [""]', 'left_wrist = ["M 17"]'))
+    assert run(monkeypatch, tmp_path / "a.c3d", "--json") == 0
+    assert 0 <= json.loads(capsys.readouterr().out)["markers"][0]["residual_mm"] < 15
+    (tmp_path / "a.roles.toml").write_text('[joints]\nleft_wrist = "Hand"\n')
+    assert run(monkeypatch, tmp_path / "a.c3d") == 1
+    assert "[joints] is of bodies" in capsys.readouterr().err
+
+
+def test_a_body_in_a_wrong_unit_is_doubted(tmp_path, monkeypatch, capsys):
+    write_motion(swinging(person(), frames=30, angle=0.1), tmp_path / "a.bvh", unit="in")
+    assert run(monkeypatch, tmp_path / "a.bvh") == 0
+    assert "is the unit right? (`--source-unit`; in are inches)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("name", "message"), [("none.bvh", "no file"), ("a.txt", "cannot read")])

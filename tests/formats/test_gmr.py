@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.gmr import gmr_arrays, gmr_motion, is_gmr
+from onbeat.formats.rates import RateWarning
 from onbeat.motion.unitree_g1 import G1, G1_23, g1_angles
 
 

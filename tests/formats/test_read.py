@@ -30,6 +30,14 @@ def test_a_roles_file_beside_the_file_or_in_its_folder_is_used(tmp_path):
         read_motion(tmp_path / "a.bvh")
 
 
+def test_a_folders_roles_are_not_forced_on_other_bodies(tmp_path):
+    (tmp_path / "roles.toml").write_text('[joints]\nleft_hip = "Ast 1"\n')
+    write_motion(swinging(person(), 3), tmp_path / "other.bvh")
+    with noted() as notes:
+        assert not read_motion(tmp_path / "other.bvh").skeleton.roles
+    assert ("roles", "not those of roles.toml", "it is of another body: there is no 'Ast 1'") in notes
+
+
 def test_markers_are_read_as_markers_and_as_a_body(tmp_path):
     motion = swinging(person(), 20, 30, angle=0.3)
     write_motion(motion, tmp_path / "a.c3d")

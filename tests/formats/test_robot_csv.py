@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import Convention
 from onbeat.formats.notes import noted
+from onbeat.formats.rates import RateWarning
 from onbeat.formats.robot_csv import is_robot_csv, read_robot_csv, write_robot_csv
 from onbeat.motion import rotations as rot
 from onbeat.motion.unitree_g1 import G1, G1_23, g1_angles
@@ -220,7 +220,7 @@ def test_other_motion_is_written_with_nine_digits(tmp_path):
 
 
 def test_a_human_motion_is_not_written(tmp_path, swinger):
-    with pytest.raises(FormatError, match="Retarget it to that robot first"):
+    with pytest.raises(FormatError, match="Retarget it to that robot"):
         write_robot_csv(swinger, tmp_path / "a.csv")
     assert not (tmp_path / "a.csv").exists()
 

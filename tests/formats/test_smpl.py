@@ -8,11 +8,11 @@ from scipy.spatial.transform import Rotation
 
 from onbeat.errors import FormatError
 from onbeat.formats import read_motion
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import up_vectors, z_up_vectors
 from onbeat.formats.keyed import read_pkl
 from onbeat.formats.notes import noted
 from onbeat.formats.npz import read_npz
+from onbeat.formats.rates import RateWarning
 from onbeat.formats.smpl import is_smpl, smpl_motion
 from onbeat.formats.smpl_body import FINGER_JOINTS, ORDERS, STATURE, smpl_skeleton
 from onbeat.motion import Body, Motion
@@ -287,3 +287,32 @@ def test_a_real_dance_goes_there_and_back(data, tmp_path):
     assert np.abs(away).max() < 1e-6
     assert abs(floor_height(motion, body)) < 0.03
     assert 0.95 < scale < 1.05
+
+
+@pytest.mark.parametrize(
+    ("root", "height", "head_over_ankle"),
+    [
+        ([0.0, 0, 0], 0.12, [0, 1.5, 0]),  # on the back, the head towards +Y
+        ([-np.pi / 2, 0, 0], 1.2, [0, 0, -1.5]),  # on the hands
+        ([np.pi / 2, 0, 0], 0.95, [0, 0, 1.5]),
+    ],
+)
+def test_who_lies_or_stands_on_the_hands_does_so(root, height, head_over_ankle, tmp_path):
+    poses = np.zeros((90, 156))
+    poses[:, :3] = root
+    path = np.tile([0, 0, height], (90, 1))
+    np.savez(tmp_path / "a.npz", poses=poses, trans=path, mocap_framerate=120.0, betas=np.zeros(16))
+    motion = read_motion(tmp_path / "a.npz")
+    head, ankle = (motion.positions[:, motion.skeleton.index(name)] for name in ("head", "left_ankle"))
+    np.testing.assert_allclose((head - ankle)[0], head_over_ankle, atol=0.15)
+    assert motion.positions[..., 2].min() > -0.05
+
+
+def test_who_stands_and_then_lies_is_on_one_floor(tmp_path):
+    poses, path = np.zeros((100, 156)), np.tile([0, 0, 0.12], (100, 1))
+    poses[:40, 0], path[:40, 2] = np.pi / 2, 0.95
+    np.savez(tmp_path / "a.npz", poses=poses, trans=path, mocap_framerate=30.0)
+    motion = read_motion(tmp_path / "a.npz")
+    lowest = motion.positions[..., 2].min(axis=1)
+    assert -0.03 < lowest[:40].min() < 0.08
+    assert abs(lowest[50:].min() - lowest[:40].min()) < 0.15

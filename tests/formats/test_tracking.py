@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import Convention
 from onbeat.formats.notes import noted
+from onbeat.formats.rates import RateWarning
 from onbeat.formats.tracking import ORDERS, is_tracking, tracking_motion, write_tracking
 from onbeat.motion import rotations as rot
 from onbeat.motion.unitree_g1 import G1, G1_23, LINKS, g1_angles, g1_motion

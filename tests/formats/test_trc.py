@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import Convention
 from onbeat.formats.lost_frames import LostFramesWarning
 from onbeat.formats.notes import noted
+from onbeat.formats.rates import RateWarning
 from onbeat.formats.trc import read_trc
 from onbeat.formats.trc_write import trc_text, write_trc
 from onbeat.motion import Markers

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from fuzzing import patient
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.keyed import read_pkl
 from onbeat.formats.npz import read_npz, write_npz
+from onbeat.formats.rates import RateWarning
 from persons import person, swinging
 
 WORDS = [

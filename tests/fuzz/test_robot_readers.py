@@ -12,8 +12,8 @@ from hypothesis.extra import numpy as hnp
 
 from fuzzing import patient
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.gmr import gmr_motion
+from onbeat.formats.rates import RateWarning
 from onbeat.formats.robot_csv import is_robot_csv, read_robot_csv
 from onbeat.formats.tracking import tracking_motion
 from onbeat.motion.unitree_g1 import G1, G1_23

@@ -70,7 +70,7 @@ def test_a_pose_of_reference_in_front():
 
 def test_sizes_floors_and_stretching_bones():
     good = standing()
-    assert "the body is 0.02 m tall: is the unit right?" in found(scaled(good, 0.01))
+    assert "the body is 0.02 m tall, its legs 0.01 m long: is the unit right?" in found(scaled(good, 0.01))
     assert "feet stand at +0.30 m" in found(good.replace(root_positions=good.root_positions + np.array([0, 0, 0.3])))
     moved = np.tile(good.skeleton.offsets, (len(good), 1, 1))
     moved[:, good.skeleton.index("LeftWrist")] *= 1 + 0.1 * np.sin(np.arange(len(good)))[:, None]

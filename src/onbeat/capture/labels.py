@@ -147,11 +147,12 @@ def check_enough(
     if missing:
         raise BodyError(
             f"{name + ': ' if name else ''}no body can be fitted to these markers: nothing is seen of "
-            f"{'; '.join(missing)}. Found are {', '.join(found) or 'no sites'}. "
+            f"{'; '.join(missing)}. Found are {_some(list(found)) or 'no sites'}. "
             + (f"Known but never seen are {_some(unseen)}. " if unseen else "")
-            + f"The labels are {_some(labels)}. Say which labels are the missing sites, or take a clip of a whole body"
+            + f"The labels are {_some(labels)}. Say which are the missing sites in a roles file "
+            "(`onbeat info FILE --roles-template`)"
         )
 
 
-def _some(labels: Sequence[str], most: int = 60) -> str:
+def _some(labels: Sequence[str], most: int = 12) -> str:
     return ", ".join(labels[:most]) + (f" and {len(labels) - most} more" if len(labels) > most else "")

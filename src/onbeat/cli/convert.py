@@ -105,23 +105,44 @@ def convert_command(
         raise FormatError(f"{len(files)} files given; a file to read and one to write are expected")
     *sources, target = files
     into = writing(target)
-    _check(options)
+    _check(options, into)
     told = None if options.roles is None else read_roles(options.roles)
     with warnings_as_lines():
         found = _joined([_read(source, into, options, told) for source in sources], options)
+        if isinstance(found, Motion):
+            found = _changed(found, options)
+        _write(found, target, into, options)
+    if hint := _misread(into, options):
+        print(f"onbeat: {hint}", file=sys.stderr)  # noqa: T201
+    what = f"{len(found.names)} markers" if isinstance(found, Markers) else _body(found)
+    print(f"{target}: {_length(found)}, {what}", file=sys.stderr)  # noqa: T201
+
+
+def _write(found: Motion | Markers, target: Path, into: Format, options: Options) -> None:
     if isinstance(found, Markers):
         write_markers(found, target, up=options.up, unit=options.unit)
-        print(f"{target}: {_length(found)}, {len(found.names)} markers", file=sys.stderr)  # noqa: T201
-        return
-    motion = _changed(found, options)
-    if into.suffix == ".tracking.npz" and options.joint_order != "mujoco":
-        write_tracking(motion, target, joint_order=options.joint_order)
+    elif into.suffix == ".tracking.npz":
+        asked = Convention(options.up or "z", options.unit or "m")
+        write_tracking(found, target, asked, options.joint_order)
     else:
-        write_motion(motion, target, up=options.up, unit=options.unit)
-    print(f"{target}: {_length(motion)}, {_body(motion)}", file=sys.stderr)  # noqa: T201
+        write_motion(found, target, up=options.up, unit=options.unit)
 
 
-def _check(options: Options) -> None:
+def _misread(into: Format, options: Options) -> str:
+    """What a reader of a format that stores neither axis nor unit has to be told; empty where it is guessed right."""
+    if into.suffix != ".bvh" or (options.up != "x" and options.unit != "in"):
+        return ""
+    needed = " ".join(
+        [*(["--source-up x"] if options.up == "x" else []), *(["--source-unit in"] if options.unit == "in" else [])]
+    )
+    return f"BVH files store neither axis nor unit, and no reader guesses these: onbeat reads it with {needed}"
+
+
+def _check(options: Options, into: Format) -> None:
+    if options.joint_order != DEFAULT.joint_order and into.suffix != ".tracking.npz":
+        raise FormatError(f"--joint-order is of .tracking.npz files; {into.suffix} has no other order")
+    if options.scale is not None and not 1e-3 <= options.scale <= 1e3:
+        raise FormatError(f"a scale of {options.scale:g} cannot be; give one from 0.001 to 1000")
     for rate in (options.fps, options.source_fps):
         if rate is not None and not 0.1 <= rate <= 10000:
             raise FormatError(f"{rate} frames a second cannot be; give a rate from 0.1 to 10000")
@@ -136,12 +157,17 @@ def _check(options: Options) -> None:
 
 
 def _read(source: Path, into: Format, options: Options, told: Roles | None) -> Motion | Markers:
-    """Markers stay markers where the target holds them and nothing is asked for that only a body can have."""
+    """A source, on the body of ``--like``; markers stay so where the target holds them and no body is needed."""
     found = read_file(source, options.source_fps, options.source_up, options.source_unit, told)
-    if isinstance(found, Motion):
-        return found
     bodily = options.like or options.mirror or options.height or options.scale or options.ground
-    return found if into.write_markers and not bodily else fitted(found, source, told).motion
+    if isinstance(found, Markers):
+        if into.write_markers and not bodily:
+            return found
+        found = fitted(found, source, told).motion
+    if options.like is None:
+        return found
+    other = read_motion(options.like)
+    return retarget(found, other.skeleton, other)
 
 
 def _joined(found: list[Motion | Markers], options: Options) -> Motion | Markers:
@@ -157,9 +183,6 @@ def _joined(found: list[Motion | Markers], options: Options) -> Motion | Markers
 
 
 def _changed(motion: Motion, options: Options) -> Motion:
-    if options.like is not None:
-        other = read_motion(options.like)
-        motion = retarget(motion, other.skeleton, other)
     motion = mirrored(motion) if options.mirror else motion
     factor = options.scale if options.height is None else options.height / stature(motion)
     motion = motion if factor is None else scaled(motion, factor)

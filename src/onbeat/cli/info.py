@@ -13,10 +13,12 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from onbeat.capture.template import marker_template
 from onbeat.cli.progress import warnings_as_lines
-from onbeat.formats import read_motion
+from onbeat.formats import read_file
 from onbeat.formats.conventions import Up
 from onbeat.formats.report import FileReport, describe
+from onbeat.motion import Motion
 from onbeat.motion.role_file import read_roles, role_template
 
 
@@ -53,7 +55,9 @@ def info_command(
     told = None if roles is None else read_roles(roles)
     if roles_template:
         with warnings_as_lines():
-            sys.stdout.write(role_template(read_motion(file, fps, up, unit, told).skeleton))
+            found = read_file(file, fps, up, unit, told)
+            whole = role_template(found.skeleton) if isinstance(found, Motion) else marker_template(found.names)
+            sys.stdout.write(whole)
         return
     with warnings_as_lines(), Console(stderr=True).status(Text(f"reading {file.name}")):
         report = describe(file, fps, up, unit, told)

@@ -11,7 +11,6 @@ AMC stores no frame rate. CMU's usual 120 is assumed with a warning, and 60 for 
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -22,15 +21,12 @@ from onbeat.formats.amc import read_columns
 from onbeat.formats.asf import Acclaim, Bone, read_asf
 from onbeat.formats.conventions import Convention, Up, z_up_motion
 from onbeat.formats.notes import tell
+from onbeat.formats.rates import assumed
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
 ASSUMED_FPS = 120.0
 _SLOWER_SUBJECTS = {"60": 60.0, "61": 60.0}
-
-
-class RateWarning(UserWarning):
-    """The rate of a file is not stored and was assumed."""
 
 
 def read_amc(
@@ -58,14 +54,8 @@ def read_amc(
     acclaim = read_asf(Path(skeleton) if skeleton else skeleton_file(path))
     columns, radians = read_columns(path, acclaim)
     if fps is None:
-        fps = _SLOWER_SUBJECTS.get(path.stem.partition("_")[0], ASSUMED_FPS)
-        warnings.warn(
-            f"AMC files store no frame rate: {fps:g} frames a second are assumed; give another with --fps "
-            "(--source-fps of `onbeat convert`)",
-            RateWarning,
-            stacklevel=3,
-        )
-        tell("fps", f"{fps:g}", "AMC files store none; CMU's are of 120, but for a few subjects")
+        usual = _SLOWER_SUBJECTS.get(path.stem.partition("_")[0], ASSUMED_FPS)
+        fps = assumed(usual, "AMC files store", "that of CMU's recordings")
     tell("up", up or "y", "it is given" if up else "Acclaim files have Y up")
     length = 0.0254 / acclaim.metres
     tell("unit", unit or f"{acclaim.metres:.6g} m", "it is given" if unit else f"an inch is {length:g} in its :units")

@@ -22,6 +22,7 @@ from onbeat.formats.bvh_frames import Frames, read_frames
 from onbeat.formats.bvh_hierarchy import Joint, read_hierarchy, whole_number
 from onbeat.formats.conventions import Up, guessed_unit, guessed_up, turn_in_place, unit_metres, z_up_vectors
 from onbeat.formats.notes import tell
+from onbeat.formats.rates import printed_rate
 from onbeat.formats.text import decoded, open_text
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
@@ -99,20 +100,10 @@ def _header(file: BinaryIO, label: str) -> tuple[bytes, bytes]:
 
 
 def _rate(word: str, where: str) -> float:
-    """Frames a second from the frame time's text; a rounded 1/n counts as n (0.0083333 is 120, not 120.0005)."""
-    try:
-        seconds = float(word)
-    except ValueError:
-        seconds = np.nan
-    if not 1e-6 <= seconds <= 1e6:
+    rate = printed_rate(word)
+    if rate is None:
         raise FormatError(f"{where}: a frame time in seconds is expected, {word[:40]!r} found")
-    whole = round(1 / seconds)
-    digits = re.fullmatch(r"\d*\.(\d+)", word, re.ASCII)
-    if digits and whole and abs(1 / whole - seconds) <= min(0.51 * 10.0 ** -len(digits[1]), 2.5e-3 * seconds):
-        tell("fps", f"{whole}", f"the frame time {word} is 1/{whole} s, rounded")
-        return float(whole)
-    tell("fps", f"{1 / seconds:g}", f"the frame time is {word} s")
-    return 1 / seconds
+    return rate
 
 
 def _motion(

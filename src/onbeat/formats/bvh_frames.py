@@ -13,7 +13,7 @@ import numpy as np
 from onbeat._shapes import Array, Ints, Positions, Rotations
 from onbeat.errors import FormatError
 from onbeat.formats.bvh_hierarchy import Joint
-from onbeat.formats.text import numbers, pieces
+from onbeat.formats.text import decoded, numbers, pieces
 from onbeat.motion import rotations as rot
 
 
@@ -51,6 +51,7 @@ def read_frames(
     carry, done, count = np.zeros(0), 0, 0
     for piece in pieces(file, label, rest):
         values = numbers(piece, line, label)
+        _check(values, piece, line, count, channels, label)
         line += _lines(piece)
         count += values.size
         if table is None or count > frames * channels:
@@ -58,7 +59,6 @@ def read_frames(
         values = np.concatenate((carry, values)) if carry.size else values
         whole = values.size // channels
         block, carry = values[: whole * channels].reshape(whole, channels), values[whole * channels :]
-        _check(block, done, label)
         table.add(block, done)
         done += whole
     if table is None or count != frames * channels:
@@ -109,9 +109,14 @@ def _lines(piece: bytes) -> int:
     return piece.count(b"\n") or piece.count(b"\r")
 
 
-def _check(block: Array, done: int, label: str) -> None:
+def _check(values: Array, piece: bytes, line: int, before: int, channels: int, label: str) -> None:
     # Beyond a billion units or turns nothing is motion, and sums of it would overflow.
-    good = np.abs(block) < 1e9
-    if not good.all():
-        frame, column = np.argwhere(~good)[0].tolist()
-        raise FormatError(f"{label}: frame {done + frame} has a value that is not a number ({block[frame, column]})")
+    good = np.abs(values) < 1e9
+    if good.all():
+        return
+    bad = int(np.argmin(good))
+    words = np.cumsum([len(row.split()) for row in decoded(piece).split("\n")])
+    line += int(np.searchsorted(words, bad, side="right"))
+    what = "is too large" if abs(values[bad]) >= 1e9 else "is not a number"
+    frame = (before + bad) // channels
+    raise FormatError(f"{label}:{line}: frame {frame} has a value that {what} ({values[bad]:g})")

@@ -137,6 +137,7 @@ class _Hierarchy:
             value = np.nan
         if not abs(value) < 1e9:
             hint = "; write decimals with a point" if re.fullmatch(r"-?\d+,\d+", word) else ""
+            hint = "; no body is so large" if abs(value) >= 1e9 else hint
             raise FormatError(f"{self.label}:{line}: a number is expected, {word[:40]!r} found{hint}")
         return value
 

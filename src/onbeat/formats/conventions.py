@@ -128,11 +128,11 @@ def tree_span(skeleton: Skeleton) -> float:
 def guessed_unit(skeleton: Skeleton) -> str:
     """The unit in which a skeleton is the size of a body; BVH stores none.
 
-    By :func:`tree_span`: up to 3.5 metres; 15 to 60 the CMU scale (a body of 30 units); to 400 centimetres; beyond
-    millimetres. Sizes that no body has (3.5 to 15) and skeletons without length are taken as centimetres.
+    By :func:`tree_span`: up to 15 metres (giants are drawn, dwarfs of centimetres are not); to 60 the CMU scale (a body
+    of 30 units); to 400 centimetres; beyond millimetres. Skeletons without length are taken as centimetres.
     """
     span = tree_span(skeleton)
-    unit = "m" if 0 < span < 3.5 else "cmu" if 15 <= span < 60 else "cm" if span < 400 else "mm"
+    unit = "m" if 0 < span < 15 else "cmu" if 15 <= span < 60 else "cm" if span < 400 else "mm"
     tell("unit", unit, f"the longest way along the bones is {span:g} units, so {span * UNITS[unit]:.2f} m")
     return unit
 
@@ -151,6 +151,16 @@ def guessed_up(motion: Motion) -> tuple[Up, str]:
     feet = some.positions[:, body.indices("left_ankle", "right_ankle")].mean(1)
     mean: Array = (top - feet).mean(0)
     if mean[2] > 2 * abs(mean[1]):
+        lowest = np.abs(some.positions[..., 1:].min((0, 1)))
+        if _stands_along_y(body) and lowest[0] < 0.5 * lowest[1]:
+            return "y", "the body lies on a floor at 0; it stands along Y in its rest pose"
         return "z", "the head is over the feet along it"
     clear = mean[1] > np.abs(mean[[0, 2]]).max()
     return "y", "the head is over the feet along it" if clear else "no axis is clearly upright; Y is usual"
+
+
+def _stands_along_y(body: Body) -> bool:
+    rest = body.skeleton.rest_positions
+    top, feet = body["head"] if "head" in body else body["chest"], body.indices("left_ankle", "right_ankle")
+    up = rest[top] - rest[feet].mean(0)
+    return bool(up[1] > 2 * np.abs(up[[0, 2]]).max())

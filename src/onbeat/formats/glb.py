@@ -108,7 +108,7 @@ class _Builder:
             self.file.nodes.append(gltf.Node(name=name, translation=offsets[joint].tolist(), children=children))
 
     def skin_and_body(self, skeleton: Skeleton, rest: Positions, stand: Positions) -> None:
-        binds = np.tile(np.eye(4, dtype=np.float32), (len(skeleton), 1, 1))
+        binds = np.tile(np.eye(4), (len(skeleton), 1, 1))
         binds[:, 3, :3] = -y_up_vectors(rest)  # column-major: the translation is the last row
         matrices = self.floats(binds.reshape(-1, 16), gltf.MAT4)
         joints = list(range(len(skeleton)))

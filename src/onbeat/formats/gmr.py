@@ -46,7 +46,7 @@ def gmr_motion(arrays: Mapping[str, Any], label: str, fps: float | None = None) 
     path = numbers(arrays, "root_pos", (-1, 3), label)
     turns = numbers(arrays, "root_rot", (len(path), 4), label)
     angles = numbers(arrays, "dof_pos", (len(path), -1), label)
-    rate = fps if fps is not None else stored_rate(arrays, label, assumed=30)
+    rate = fps if fps is not None else stored_rate(arrays, label, otherwise=30)
     return g1_motion(path, turns[:, [3, 0, 1, 2]], angles, rate, Path(label).stem, label)
 
 

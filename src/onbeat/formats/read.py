@@ -11,8 +11,8 @@ from onbeat.errors import BodyError, FormatError
 from onbeat.formats.conventions import Up
 from onbeat.formats.notes import tell
 from onbeat.formats.registry import FORMATS, reading
-from onbeat.motion import Markers, Motion
-from onbeat.motion.role_file import Roles, read_roles, roles_beside
+from onbeat.motion import Markers, Motion, Skeleton
+from onbeat.motion.role_file import FOLDER_FILE, Roles, read_roles, roles_beside
 from onbeat.motion.roles import find_roles
 
 FAR_OFF_MM = 25.0
@@ -36,13 +36,14 @@ def read_file(
     if fps is not None and not 0.1 <= fps <= 10000:
         raise FormatError(f"{fps:g} frames a second cannot be; give a rate from 0.1 to 10000")
     if not path.is_file():
-        raise FormatError(f"no file {path}" if not path.is_dir() else f"{path} is a folder; give a motion file")
+        what = "is a folder" if path.is_dir() else "is no file that can be read" if os.path.lexists(path) else ""
+        raise FormatError(f"{path} {what}; give a motion file" if what else f"no file {path}")
     found = read(path, fps, up, unit)
     told = _roles(path, roles)
     if isinstance(found, Markers):
         return found
     if told is not None and told.joints:
-        found = found.replace(skeleton=told.told(found.skeleton))
+        found = found.replace(skeleton=_told(found.skeleton, told, of_folder=roles is None))
     if "guess" in find_roles(found.skeleton).how.values():
         tell("roles", "guessed", "no names tell arms and legs; the rest pose does")
     return found
@@ -101,10 +102,12 @@ def fitted(markers: Markers, path: str | os.PathLike[str], roles: Roles | None =
         If the markers do not tell a whole body; the file is named.
     """
     told = _roles(Path(path), roles)
+    if told is not None and told.joints and Path(told.source).name != FOLDER_FILE:
+        raise FormatError(f"{told.source}: [joints] is of bodies, but {path} holds markers; say them in [markers]")
     try:
         fit = fit_body(markers, told.markers if told and told.markers else None)
     except BodyError as error:
-        raise BodyError(f"{path}: {error}") from None
+        raise BodyError(f"{path}: {str(error).removeprefix(f'{markers.name}: ')}") from None
     name, (summary, *more) = Path(path).name, fit.report
     tell("body", "fitted to the markers", summary)
     for line in more:
@@ -125,6 +128,16 @@ def _roles(path: Path, roles: Roles | None) -> Roles | None:
         return roles
     beside = roles_beside(path)
     return None if beside is None else read_roles(beside)
+
+
+def _told(skeleton: Skeleton, roles: Roles, of_folder: bool) -> Skeleton:
+    """The skeleton with its roles; a file that is for a whole folder may be of other bodies in it."""
+    if of_folder and Path(roles.source).name == FOLDER_FILE:
+        strangers = [name for name in roles.joints.values() if name not in skeleton.names]
+        if strangers:
+            tell("roles", f"not those of {FOLDER_FILE}", f"it is of another body: there is no {strangers[0]!r}")
+            return skeleton
+    return roles.told(skeleton)
 
 
 def motion_files(folder: str | os.PathLike[str]) -> list[Path]:

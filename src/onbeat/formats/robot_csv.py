@@ -9,7 +9,6 @@ The file does not store its rate: 30 frames a second are assumed with a warning,
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
@@ -19,9 +18,9 @@ import numpy as np
 from onbeat._shapes import Array
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import Convention, Up, z_up_vectors
 from onbeat.formats.notes import tell
+from onbeat.formats.rates import assumed
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.unitree_g1 import G1, G1_23, LARGEST, g1_angles, g1_motion, unit_quaternions
@@ -64,7 +63,8 @@ def read_robot_csv(path: str | Path, fps: float | None = None, up: Up | None = N
     if not blocks:
         raise FormatError(f"{path}: no frame found; a line of {layout.width} numbers each is expected")
     table = np.concatenate(blocks)[:, layout.columns]
-    return _motion(table, _rate(fps), up or "z", Convention("z", unit or "m").metres, path)
+    rate = fps or assumed(ASSUMED_FPS, "robot CSV files store", "as BeyondMimic does")
+    return _motion(table, rate, up or "z", Convention("z", unit or "m").metres, path)
 
 
 def _motion(table: Array, fps: float, up: Up, metres: float, path: Path) -> Motion:
@@ -75,18 +75,6 @@ def _motion(table: Array, fps: float, up: Up, metres: float, path: Path) -> Moti
     root = table[:, [6, 3, 4, 5]]
     root = root if up == "z" else rot.multiply(turn, root)
     return g1_motion(z_up_vectors(table[:, :3], up) * metres, root, table[:, 7:], fps, path.stem, str(path))
-
-
-def _rate(fps: float | None) -> float:
-    if fps is not None:
-        return fps
-    warnings.warn(
-        f"robot CSV files store no frame rate: {ASSUMED_FPS:g} frames a second are assumed, as BeyondMimic does; give "
-        "another with --fps of `onbeat moves build`, or --source-fps of `onbeat convert`",
-        RateWarning,
-        stacklevel=4,
-    )
-    return ASSUMED_FPS
 
 
 def is_robot_csv(path: Path) -> bool:

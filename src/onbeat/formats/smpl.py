@@ -13,7 +13,6 @@ standing feet reach the floor. With Y up the height is open, and the body of mea
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
@@ -21,12 +20,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from onbeat._shapes import Array, Positions, Rotations
+from onbeat._shapes import Array, Bools, Positions, Rotations
 from onbeat.errors import FormatError
 from onbeat.formats.arrays import floats
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import UNITS, Convention, Up, z_up_rotations, z_up_vectors
 from onbeat.formats.notes import tell
+from onbeat.formats.rates import assumed
 from onbeat.formats.smpl_body import FINGER_JOINTS, ORDERS, PELVIS, SOLE, STATURE, smpl_skeleton
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
@@ -41,6 +40,8 @@ _LARGEST_TURN, _LARGEST_PATH = 1e4, 1e7
 _SAMPLES = 20_000
 """So many frames of a motion tell its floor."""
 _SIZES = (0.82, 1.2)
+_LYING = 0.5
+"""Metres (of metric files) below which the pelvis of a body is that lies or sits."""
 """Bodies from 1.40 to 2.04 m."""
 
 
@@ -70,7 +71,7 @@ def smpl_motion(
     arrays : by name; only those needed are asked for.
     label : the file, for messages; its stem is the motion's name.
     fps : the rate of its frames, where the file stores none (60 for AIST++, else 30 is assumed with a warning).
-    up : the axis that points up; without it that along which the body is upright.
+    up : the axis that points up; without it that which files with these keys have, else along which the body stands.
     unit : of the path; without it metres, or what makes the body's height one.
 
     Raises
@@ -83,7 +84,7 @@ def smpl_motion(
         raise FormatError(f"{label}: poses of {len(poses)} frames, but a path of {len(path)}; cut both alike")
     rate = _rate(arrays, label) if fps is None else fps
     turn = rot.exp(poses[:, 0])
-    axis, turn, path = _upright(turn, path, up)
+    axis, turn, path = _upright(turn, path, up, _usual_up(arrays))
     metres = UNITS[_unit(path, axis, label)] if unit is None else Convention("z", unit).metres
     rotations, fingers = _local(poses, turn, axis)
     path = z_up_vectors(path, axis) * metres
@@ -153,23 +154,32 @@ def _rate(arrays: Mapping[str, NDArray[Any]], label: str) -> float:
         return float(found[0])
     # AIST++ records 60 frames a second; what EDGE and others make from it has 30 and no scaling.
     aist = "smpl_poses" in arrays and "full_pose" not in arrays
-    assumed = 60.0 if aist else 30.0
-    warnings.warn(
-        f"{label} stores no frame rate: {assumed:g} frames a second are assumed; give another with --fps of "
-        "`onbeat moves build`, or --source-fps of `onbeat convert`",
-        RateWarning,
-        stacklevel=5,
-    )
-    return assumed
+    return assumed(60.0 if aist else 30.0, f"{label} stores")
 
 
-def _upright(turn: Rotations, path: Positions, up: Up | None) -> tuple[Up, Rotations, Positions]:
-    """Which axis of the world is up, and the roots turned over where it points down (as cameras have it)."""
+def _usual_up(keys: Collection[str]) -> Up | None:
+    """The up axis that files with these keys have: AMASS's Z, AIST++'s Y; None where the keys do not tell."""
+    if "smpl_scaling" in keys:
+        return "y"
+    return "z" if "trans" in keys and any(key in keys for key in ("mocap_framerate", "mocap_frame_rate")) else None
+
+
+def _upright(turn: Rotations, path: Positions, up: Up | None, usual: Up | None) -> tuple[Up, Rotations, Positions]:
+    """Which axis of the world is up, and the roots turned over where it points down (as cameras have it).
+
+    Where the keys tell the axis, a body that lies or stands on its hands does so. They are not believed only where the
+    body is upright along another axis all the time and too high to lie.
+    """
     if up is not None:
         return up, turn, path
-    crown = rot.rotate(turn, np.array([0.0, 1.0, 0.0])).mean(0)
-    axis: Up = "y" if abs(crown[1]) > abs(crown[2]) else "z"
-    along = float(crown[1 if axis == "y" else 2])
+    crowns = rot.rotate(turn, np.array([0.0, 1.0, 0.0]))
+    crown = crowns.mean(0)
+    axis: Up = "y" if abs(crown[1]) > abs(crown[2]) + 1e-6 else "z"
+    along = float(crown["xyz".index(axis)])
+    height = float(np.median(z_up_vectors(path, usual or axis)[:, 2]))
+    if usual is not None and (axis == usual or abs(along) < 0.8 or abs(height) < _LYING):
+        tell("up", usual, "as files with these keys have it")
+        return usual, turn, path
     if abs(along) < 0.3:
         tell("up", axis, f"no axis is clearly upright; the body is along it most ({along:.2f})")
         return axis, turn, path
@@ -212,10 +222,22 @@ def _standing(motion: Motion, fingers: bool, axis: Up) -> Motion:
     if size is not None:
         tell("size", f"{size:.2f}", "with it the standing feet reach the floor")
         motion = _on(smpl_skeleton(fingers, size), motion, motion.root_positions)
-    floor = floor_height(motion[:_SAMPLES]) - SOLE * STATURE * (size or 1.0)
+    floor = _floor(motion[:_SAMPLES]) - SOLE * STATURE * (size or 1.0)
     if size is None:
         tell("floor", f"{floor:.3f} m", "where the feet stand, put at 0, as the height over the floor is open")
     return _on(motion.skeleton, motion, motion.root_positions - np.array([0.0, 0.0, floor]))
+
+
+def _floor(some: Motion) -> float:
+    """Metres: where the feet stand; where the body is not on its feet, the lowest of it."""
+    upright = rot.rotate(some.rotations[:, 0], np.array([0.0, 0.0, 1.0]))[:, 2] > 0.5
+    if upright.mean() > 0.1:
+        return floor_height(_chosen(some, upright))
+    return float(np.percentile(some.positions[..., 2].min(axis=1), 5))
+
+
+def _chosen(motion: Motion, frames: Bools) -> Motion:
+    return Motion(motion.skeleton, motion.rotations[frames], motion.root_positions[frames], motion.fps)
 
 
 def _on(skeleton: Skeleton, motion: Motion, path: Positions) -> Motion:
@@ -229,5 +251,5 @@ def _size(motion: Motion) -> float | None:
     upright = reach > 0.85 * STATURE * PELVIS
     if upright.mean() < 0.1:
         return None
-    size = round(1 + (floor_height(some) - SOLE * STATURE) / float(np.median(reach[upright])), 2)
+    size = round(1 + (floor_height(_chosen(some, upright)) - SOLE * STATURE) / float(np.median(reach[upright])), 2)
     return size if _SIZES[0] <= size <= _SIZES[1] else None

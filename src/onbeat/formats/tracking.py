@@ -14,7 +14,6 @@ which the robot's own kinematics puts the links where ``body_pos_w`` has them. P
 from __future__ import annotations
 
 import io
-import warnings
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, Literal
@@ -25,9 +24,9 @@ from numpy.typing import NDArray
 from onbeat._shapes import Array, Ints, Positions, Rotations
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import Convention
 from onbeat.formats.notes import tell
+from onbeat.formats.rates import assumed
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_speeds
@@ -131,15 +130,10 @@ def _shown(shape: tuple[int, ...]) -> str:
     return f"({', '.join(str(m) if m >= 0 else '…' if n else 'frames' for n, m in enumerate(shape))})"
 
 
-def stored_rate(arrays: Mapping[str, Any], label: str, assumed: float = ASSUMED_FPS) -> float:
-    """The rate in ``fps``, a number or an array of one; where there is none, ``assumed`` with a warning."""
+def stored_rate(arrays: Mapping[str, Any], label: str, otherwise: float = ASSUMED_FPS) -> float:
+    """The rate in ``fps``, a number or an array of one; where there is none, ``otherwise`` with a warning."""
     if arrays.get("fps") is None:
-        warnings.warn(
-            f"{label} stores no frame rate: {assumed:g} frames a second are assumed; give another with --source-fps",
-            RateWarning,
-            stacklevel=4,
-        )
-        return assumed
+        return assumed(otherwise, f"{label} stores")
     rate = _array(arrays["fps"])
     if rate.size != 1 or rate.dtype.kind not in "fiu" or not 0.1 <= rate.reshape(-1)[0] <= 10000:
         raise FormatError(f"{label}: fps is {str(arrays['fps'])[:40]}; a number from 0.1 to 10000 is expected")

@@ -20,11 +20,11 @@ import numpy as np
 
 from onbeat._shapes import Array
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import RateWarning
 from onbeat.formats.conventions import Up
 from onbeat.formats.lost_frames import warn_of_lost_frames
 from onbeat.formats.marker_axes import Stored, z_up_positions
 from onbeat.formats.notes import tell
+from onbeat.formats.rates import ASK, RateWarning
 from onbeat.motion import Markers
 from onbeat.motion.marker_labels import distinct_labels, shared_prefix, without_prefix
 
@@ -259,15 +259,15 @@ def _rate(header: _Header, times: Array, path: Path) -> float:
         if not shown:
             raise FormatError(
                 f"{path}:3: a DataRate in frames a second is expected, {header.facts['datarate'][:40]!r} found, and "
-                "the times do not tell; say it with --source-fps"
+                f"the times do not tell; {ASK}"
             )
         tell("fps", f"{shown:g}", "by the column of times; the file has no DataRate")
         return shown
     if shown and abs(shown - said) > 0.02 * said:
         tell("fps", f"{said:g}", f"DataRate says so, though the times are {shown:.4g} a second")
         warnings.warn(
-            f"{path}: DataRate says {said:g} frames a second, the column of times {shown:.4g}; {said:g} is taken, give "
-            "another with --source-fps",
+            f"{path}: DataRate says {said:g} frames a second, the column of times {shown:.4g}; {said:g} is taken, "
+            f"{ASK}",
             RateWarning,
             stacklevel=3,
         )

@@ -33,8 +33,10 @@ def cropped(motion: Recorded, start: float = 0.0, end: float | None = None) -> R
     >>> cropped(still, 0.5, 1.5).duration
     1.0
     """
-    first = int(np.ceil(start * motion.fps - 1e-6))
-    last = len(motion) if end is None else int(np.ceil(end * motion.fps - 1e-6))
+    span = len(motion) + 1  # what lies beyond, up to infinity, is beyond
+    first = -1 if np.isnan(start) else int(np.ceil(np.clip(start * motion.fps - 1e-6, -1, span)))
+    end_frame = span if end is None else -1 if np.isnan(end) else np.clip(end * motion.fps - 1e-6, -1, span)
+    last = int(np.ceil(end_frame))
     if not 0 <= first < min(last, len(motion)):
         until = "its end" if end is None else f"{end:g} s"
         raise FormatError(f"no frame from {start:g} s to {until}: the motion lasts {motion.duration:.2f} s")

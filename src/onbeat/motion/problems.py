@@ -30,8 +30,8 @@ STILL = 0.5
 """Seconds without any change in the last bit: nobody stands so."""
 SKATE = 0.15
 """m/s (mean) of feet that rest."""
-SIZES = (0.6, 2.4)
-"""Metres of bodies that need no explanation."""
+SIZES, LEGS = (0.3, 2.5), (0.42, 1.3)
+"""Metres of bodies, and of their legs from hip to ankle, that need no explanation, children and robots included."""
 
 
 def problems(motion: Motion) -> list[str]:
@@ -46,11 +46,11 @@ def problems(motion: Motion) -> list[str]:
     'frames 0–59 are exactly alike (2.00 s): the capture stopped, or frames were filled in'
     """
     found = [*_leaps(motion), *_flips(motion), *_still(motion), *_rest_first(motion), *_repeats(motion)]
-    found += [*_size(motion), *_stretching(motion)]
     try:
         body = Body.of(motion.skeleton)
     except BodyError as error:
-        return [*found, str(error).split(";")[0]]
+        return [*found, *_size(motion, None), *_stretching(motion), str(error).split(";")[0]]
+    found += [*_size(motion, body), *_stretching(motion)]
     return [*found, *_floor(motion, body), *_feet(motion, body), *_sides(body)]
 
 
@@ -122,10 +122,13 @@ def _rest_first(motion: Motion) -> Iterator[str]:
         )
 
 
-def _size(motion: Motion) -> Iterator[str]:
+def _size(motion: Motion, body: Body | None) -> Iterator[str]:
+    """By the legs where they are known: who crouches all the time is not small."""
     height = stature(motion)
-    if not SIZES[0] <= height <= SIZES[1]:
-        yield f"the body is {height:.2f} m tall: is the unit right? (`--source-unit`)"
+    legs = 0.82 if body is None else body.leg_length
+    if not (SIZES[0] <= height <= SIZES[1] and LEGS[0] <= legs <= LEGS[1]):
+        of_legs = "" if body is None else f", its legs {legs:.2f} m long"
+        yield f"the body is {height:.2f} m tall{of_legs}: is the unit right? (`--source-unit`; in are inches)"
 
 
 def _stretching(motion: Motion) -> Iterator[str]:

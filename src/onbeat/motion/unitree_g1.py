@@ -205,6 +205,6 @@ def g1_angles(motion: Motion, what: str) -> Array:
         return hinge_angles(G1, motion)
     except BodyError as error:
         raise FormatError(
-            f"{what} can hold one robot's motion alone; {error}. Retarget it to that robot first (to a skeleton "
-            "with the root pelvis and left_hip_pitch_joint … right_wrist_yaw_joint), or write .bvh, .glb or .npz"
+            f"{what} can hold one robot's motion alone; {error}. Retarget it to that robot with a tool that keeps its "
+            "hinges, as GMR (`--like` does not), or write .bvh, .glb or .npz"
         ) from None

@@ -1,0 +1,46 @@
+"""The commands there are: where each is, what it does, and an example."""
+
+from __future__ import annotations
+
+import cyclopts
+
+import onbeat
+
+app = cyclopts.App(name="onbeat", version=onbeat.__version__, help=onbeat.__doc__, suppress_keyboard_interrupt=False)
+# Named by path, so that a command is imported when it is called; its help stands here, so that a list needs none.
+COMMANDS = {
+    "dance": (
+        "onbeat.cli.dance:dance_command",
+        "Dance to a song: motion capture and a song in, a dance on the music out.",
+        "onbeat dance song.mp3 --moves my_clips -o my_dance --seconds 60",
+    ),
+    "listen": (
+        "onbeat.cli.listen:listen_command",
+        "Hear the beats, downbeats, chord changes and intensity of a song.",
+        "onbeat listen song.mp3 -o song.json --click song_clicks.wav --plot song.png",
+    ),
+    "moves": (
+        "onbeat.cli.moves:moves_app",
+        "Build and show motion libraries: clips and the joins between them.",
+        "onbeat moves build my_clips -o my_library",
+    ),
+    "evaluate": (
+        "onbeat.cli.evaluate:evaluate_command",
+        "Measure how well a motion dances to a song: on the beat, with its intensity, on its feet, smoothly.",
+        "onbeat evaluate dance.bvh --music song.wav",
+    ),
+    "convert": (
+        "onbeat.cli.convert:convert_command",
+        "Convert motion files: any that is read in, any that is written out; cut, joined, mirrored, scaled on the way.",
+        "onbeat convert 05_01.amc dance.glb --source-fps 120 --ground",
+    ),
+    "info": (
+        "onbeat.cli.info:info_command",
+        "Say what is in a motion file: body, rate, unit, roles, contacts, and what is wrong with it.",
+        "onbeat info dance.bvh",
+    ),
+}
+"""Of each command: where it is, what it does in a sentence, and an example."""
+
+for order, (name, (path, sentence, example)) in enumerate(COMMANDS.items()):
+    app.command(path, name=name, help=f"{sentence}\n\nExample: ``{example}``", sort_key=order)
