@@ -148,3 +148,22 @@ def test_there_is_something_to_see(with_song: Any, width: int, height: int) -> N
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     with_song.posed(3.0)
     assert np.abs(pixels(page) - first).max() > 0.2
+
+
+def test_clicks_sound_on_the_beats_when_asked_for(with_song: Any) -> None:
+    page = with_song.page
+    assert page.evaluate("window.onbeat.state().clicks") == 0
+    page.evaluate("window.onbeat.play()")
+    with_song.until("window.onbeat.state().time > 0.7")
+    assert page.evaluate("window.onbeat.state().clicks") == 0  # nobody has asked yet
+    page.keyboard.press("c")
+    assert page.get_attribute("#clicks", "aria-pressed") == "true"
+    with_song.until("window.onbeat.state().clicks >= 2")  # a busy machine leaves out what it would sound late
+    page.click("#clicks")
+    sounded, time = page.evaluate("[window.onbeat.state().clicks, window.onbeat.state().time]")
+    with_song.until(f"window.onbeat.state().time > {time + 1.2}")
+    assert page.evaluate("window.onbeat.state().clicks") == sounded
+
+
+def test_without_sound_there_is_nothing_to_click_to(silent: Any) -> None:
+    assert not silent.page.is_visible("#clicks")

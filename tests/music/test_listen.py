@@ -124,7 +124,7 @@ def test_unknown_method_and_progress(tmp_path: Path) -> None:
     _, audio = click_track(120, 5.0)
     path = tmp_path / "a song.wav"
     soundfile.write(path, audio.samples, audio.rate)
-    with pytest.raises(AudioError, match="there are barpointer, shiratori2006"):
+    with pytest.raises(AudioError, match="there are barpointer, onsets, shiratori2006"):
         listen(path, "none")
     heard: list[float] = []
     assert listen(path, progress=heard.append).title == "a song"

@@ -1,4 +1,4 @@
-"""The default method on pieces with known beats: a guard against getting worse; ``benchmarks/listen.py`` measures."""
+"""The default method on pieces with known beats: a guard against getting worse; ``benchmarks/beats.py`` measures."""
 
 from __future__ import annotations
 

@@ -12,6 +12,7 @@ const CODEC_DELAY = 1105; // [samples] that an MP3 begins with; most browsers cu
 export class Clock {
   playing = false;
   rate = 1;
+  turns = 0; // counts what was to sound and will not: pauses, jumps, other speeds
   private context?: AudioContext;
   private buffer?: AudioBuffer;
   private source?: AudioBufferSourceNode;
@@ -86,6 +87,12 @@ export class Clock {
     return (this.shown = Math.min(this.shown, this.duration));
   }
 
+  /** The audio context, and its time at which a second of the dance sounds; undefined while nothing sounds. */
+  sounding(time: number): { context: AudioContext; at: number } | undefined {
+    if (!this.playing || !this.source || !this.context) return undefined;
+    return { context: this.context, at: this.mark + (time - this.origin) / this.rate };
+  }
+
   private restart(at: number): void {
     this.silence();
     this.origin = this.shown = at;
@@ -114,6 +121,7 @@ export class Clock {
   }
 
   private silence(): void {
+    this.turns++;
     this.source?.stop();
     this.source?.disconnect();
     this.source = undefined;

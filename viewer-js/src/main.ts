@@ -1,5 +1,6 @@
 // The page: reads its data, sets the stage, and draws every frame at the time the clock says.
 
+import { Clicks } from "./clicks";
 import { Clock } from "./clock";
 import { ClipColours } from "./colours";
 import type { PageData } from "./contract";
@@ -19,7 +20,8 @@ function start(): void {
     caughtUp = false;
   };
   const now = (): number => clock.now(performance.now());
-  const panel = new Panel(page, clock, stage, colours, seek);
+  const clicks = new Clicks(clock, page);
+  const panel = new Panel(page, clock, stage, colours, clicks, seek);
   const [detail, overview] = [element("detail"), element("overview")] as HTMLCanvasElement[];
   const timeline = new Timeline(detail, overview, page, colours, seek, now);
   let before = performance.now();
@@ -30,6 +32,7 @@ function start(): void {
     if (!caughtUp) stage.catchUp();
     caughtUp = true;
     timeline.draw(time);
+    clicks.update(time);
     panel.update(time, beat.since);
     if (clock.playing && time >= page.duration) clock.pause();
     before = at;
@@ -39,7 +42,7 @@ function start(): void {
   if (page.audio) {
     clock.load(page.audio).catch((error: unknown) => panel.say(`This browser cannot play the sound: ${String(error)}`));
   }
-  expose(page, clock, stage, seek);
+  expose(page, clock, stage, clicks, seek);
 }
 
 function lastBeat(page: PageData, time: number): { since: number; strength: number } {
@@ -51,11 +54,12 @@ function lastBeat(page: PageData, time: number): { since: number; strength: numb
 }
 
 /** A small door for scripts and tests: `onbeat.state()`, `onbeat.seek(12)`, `onbeat.play()`, `onbeat.pause()`. */
-function expose(page: PageData, clock: Clock, stage: Stage, seek: (time: number) => void): void {
+function expose(page: PageData, clock: Clock, stage: Stage, clicks: Clicks, seek: (time: number) => void): void {
   const state = () => ({
     time: clock.now(performance.now()),
     playing: clock.playing,
     sound: clock.hasSound,
+    clicks: clicks.sounded,
     duration: page.duration,
     names: page.joints,
     joints: Array.from(stage.dancer.joints),

@@ -1,5 +1,6 @@
 // What is read and pressed: title, time, buttons, figures, keys. All text of the dance goes in as text, never as HTML.
 
+import type { Clicks } from "./clicks";
 import type { Clock } from "./clock";
 import type { ClipColours } from "./colours";
 import type { PageData } from "./contract";
@@ -27,6 +28,7 @@ export class Panel {
     private readonly clock: Clock,
     private readonly stage: Stage,
     private readonly colours: ClipColours,
+    private readonly clicks: Clicks,
     private readonly seek: (time: number) => void,
   ) {
     this.starts = page.moves.map((move) => move.at_s);
@@ -38,6 +40,8 @@ export class Panel {
     on("start", () => this.toggle());
     on("follow", () => this.toggleFollow());
     on("speed", () => this.nextSpeed());
+    on("clicks", () => this.toggleClicks());
+    at("clicks").hidden = !this.clicks.possible;
     text("speed", "1×");
     at("overview").setAttribute("aria-valuemax", page.duration.toFixed(1));
     addEventListener("keydown", (event) => this.key(event));
@@ -106,6 +110,12 @@ export class Panel {
     at("follow").setAttribute("aria-pressed", String(this.stage.follow));
   }
 
+  private toggleClicks(): void {
+    if (!this.clicks.possible) return;
+    this.clicks.toggle();
+    at("clicks").setAttribute("aria-pressed", String(this.clicks.on));
+  }
+
   private nextSpeed(): void {
     this.speed = (this.speed + 1) % SPEEDS.length;
     this.clock.setRate(SPEEDS[this.speed]);
@@ -125,6 +135,7 @@ export class Panel {
       Home: () => this.seek(0),
       End: () => this.seek(this.page.duration),
       f: () => this.toggleFollow(),
+      c: () => this.toggleClicks(),
     };
     const action = actions[event.key];
     if (!action) return;

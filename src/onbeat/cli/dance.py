@@ -20,11 +20,13 @@ from rich.text import Text
 from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Float32
+from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.dance.make import LONGEST, Dance, make_dance
 from onbeat.errors import LibraryError, OnbeatError, PlanError
 from onbeat.files import make_folder
 from onbeat.moves.library import MoveLibrary
+from onbeat.music.fixes import Corrections
 from onbeat.music.song import Song
 
 Sound = tuple[Float32, int]
@@ -50,6 +52,7 @@ def dance_command(
     mirror: bool = True,
     video: Annotated[bool, cyclopts.Parameter(negative="")] = False,
     json: Annotated[bool, cyclopts.Parameter(negative="")] = False,
+    flags: CorrectionFlags = NO_FLAGS,
 ) -> None:
     """Dance to a song with the moves of a folder of motion capture.
 
@@ -59,8 +62,8 @@ def dance_command(
         Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``. Without one the embedded song is
         played.
     moves
-        Motion files (BVH, ASF/AMC, npz), a folder of them, or a library made by ``onbeat moves build``. Without it the
-        embedded troupe dances.
+        Motion files of any kind, a folder of them, or a library made by ``onbeat moves build``. Without it the embedded
+        troupe dances.
     output
         Folder for dance.bvh, dance.glb, dance.html, dance.json and song.json.
     seconds
@@ -85,6 +88,8 @@ def dance_command(
         Write dance.mp4 with sound (needs the extra ``video``).
     json
         Print dance.json on stdout instead of a table.
+    flags
+        What was heard wrong of the song, and how it is right.
     """
     _check(seconds, start, seed, fps)
     _check_output(output)
@@ -93,7 +98,7 @@ def dance_command(
     if moves is not None and not moves.exists():
         raise LibraryError(f"no file or folder {moves}; give a folder of BVH, ASF/AMC or npz motion to --moves")
     with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
-        heard, sound = _hear(song, start, seconds, seed, stages)
+        heard, sound = _hear(song, start, seconds, seed, flags.corrections(), stages)
         library = _library(moves, mirror, stages)
         dance = make_dance(
             heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, step=stages
@@ -150,13 +155,15 @@ def _require_video() -> None:
     require_av()
 
 
-def _hear(song: Path | None, start: float, seconds: float | None, seed: int, stages: Stages) -> tuple[Song, Sound]:
+def _hear(
+    song: Path | None, start: float, seconds: float | None, seed: int, fixes: Corrections, stages: Stages
+) -> tuple[Song, Sound]:
     """The song as heard and its sound, both from ``start`` on."""
     from onbeat.music.audio import audio_duration, read_stereo
     from onbeat.music.listen import listen
 
     if song is None:
-        return _hear_embedded(start, seconds, seed, stages)
+        return _hear_embedded(start, seconds, seed, fixes, stages)
     stages("listening", 0.0)
     length = audio_duration(song)
     if start >= length:
@@ -167,11 +174,15 @@ def _hear(song: Path | None, start: float, seconds: float | None, seed: int, sta
             f"{song} lasts {length / 60:.0f} minutes; a dance lasts at most {LONGEST / 60:.0f}: "
             "choose a stretch with --start and --seconds"
         )
-    heard = listen(song, start=start, seconds=wanted, progress=lambda s: stages("listening", s / wanted))
+    heard = listen(
+        song, start=start, seconds=wanted, progress=lambda s: stages("listening", s / wanted), corrections=fixes
+    )
     return heard, read_stereo(song, start, wanted, highest=SOUND)
 
 
-def _hear_embedded(start: float, seconds: float | None, seed: int, stages: Stages) -> tuple[Song, Sound]:
+def _hear_embedded(
+    start: float, seconds: float | None, seed: int, fixes: Corrections, stages: Stages
+) -> tuple[Song, Sound]:
     import numpy as np
     import soxr
 
@@ -189,7 +200,7 @@ def _hear_embedded(start: float, seconds: float | None, seed: int, stages: Stage
     samples = samples if seconds is None else samples[: round(seconds * rate)]
     stages("listening", 0.0)
     mono = np.asarray(soxr.resample(samples.mean(axis=1), rate, RATE), np.float32)
-    return listen_samples(Audio(mono, RATE), title="the embedded song"), (samples, rate)
+    return listen_samples(Audio(mono, RATE), title="the embedded song", corrections=fixes), (samples, rate)
 
 
 def _library(moves: Path | None, mirror: bool, stages: Stages) -> MoveLibrary:

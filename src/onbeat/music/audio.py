@@ -133,8 +133,10 @@ def _usable(path: str | os.PathLike[str], read: float, expected: float, reason: 
     )
 
 
-def _native_blocks(path: str | os.PathLike[str], start: float, seconds: float | None) -> Iterator[tuple[Float32, int]]:
-    """Blocks (N, channels) and their rate, as they are in the file."""
+def native_blocks(
+    path: str | os.PathLike[str], start: float = 0.0, seconds: float | None = None
+) -> Iterator[tuple[Float32, int]]:
+    """Blocks (N, channels) and their rate, as they are in the file; arguments and errors as :func:`read_blocks`."""
     source = _open(path)
     if start < 0.0 or (seconds is not None and seconds <= 0.0):
         stretch = f"start {start:g} s" if seconds is None else f"start {start:g} s, length {seconds:g} s"
@@ -176,7 +178,7 @@ def read_blocks(
         If the file is missing, a folder, empty, not sound, or holds samples that are not numbers.
     """
     stream: soxr.ResampleStream | None = None
-    for block, native in _native_blocks(path, start, seconds):
+    for block, native in native_blocks(path, start, seconds):
         mono = np.ascontiguousarray(block.mean(axis=1, dtype=np.float32))
         if native == rate:
             yield mono
@@ -218,7 +220,7 @@ def read_stereo(
     """
     parts: list[Float32] = []
     rate, stream = 0, None
-    for block, native in _native_blocks(path, start, seconds):
+    for block, native in native_blocks(path, start, seconds):
         part = block if block.shape[1] <= 2 else block.mean(axis=1, keepdims=True, dtype=np.float32)
         rate = native if highest is None else min(native, highest)
         if rate < native:

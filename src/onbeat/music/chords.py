@@ -9,6 +9,7 @@ from onbeat._shapes import Array, Float32, Times
 BASS_TONES = 38  # semitones from A1 up to 500 Hz: bass sounds and their overtones (Shiratori 2006, III-B)
 NEARBY = 0.25  # [s] before and after a moment, in which its harmony is compared
 LEAST_CHANGE = 0.15  # that counts as a change of 1: a drum solo has none
+FAINT = 0.05  # of the usual sum of tones, under which nothing sounds
 
 
 def new_harmony(tones: Float32, rate: float) -> Array:
@@ -74,5 +75,36 @@ def chord_change(slices: Array) -> Array:
     distance = 1.0 - (chroma[1:] * chroma[:-1]).sum(axis=1)
     sounding = slices.sum(axis=1) > 0.05 * np.median(slices.sum(axis=1))
     change = np.where(sounding[1:], 0.5 * (new + distance), 0.0)
+    usual = max(float(np.percentile(change, 95)), LEAST_CHANGE) if len(change) else 1.0
+    return np.clip(np.concatenate([[0.0], change]) / usual, 0.0, 1.0)
+
+
+def harmony_change(chroma: Array) -> Array:
+    """How much the harmony at each beat differs from that of the beat before, in any tuning and loudness: (B,), 0…1.
+
+    As :func:`chord_change`, but of the twelve tones in the song's own tuning, each slice as a share of its own sum: a
+    song that is a quarter tone sharp, or grows louder, changes no more than another.
+
+    Parameters
+    ----------
+    chroma : (B, 2, 12) from each beat to the next; the bass and the rest (``Profile.chroma``).
+
+    Examples
+    --------
+    >>> chroma = np.zeros((3, 2, 12))
+    >>> chroma[:2, :, 0] = chroma[2, :, 7] = 1.0
+    >>> harmony_change(chroma).tolist()
+    [0.0, 0.0, 1.0]
+    """
+    if not len(chroma):
+        return np.zeros(0)
+    total = chroma.sum(axis=(1, 2))
+    shares = chroma.reshape(len(chroma), -1) / np.maximum(total, 1e-9)[:, None]
+    new = np.maximum(np.diff(shares, axis=0), 0.0).sum(axis=1)
+    tones = chroma.sum(axis=1)
+    tones /= np.maximum(np.linalg.norm(tones, axis=1, keepdims=True), 1e-9)
+    distance = 1.0 - (tones[1:] * tones[:-1]).sum(axis=1)
+    sounding = total > FAINT * np.median(total)
+    change = np.where(sounding[1:] & sounding[:-1], 0.5 * (new + distance), 0.0)
     usual = max(float(np.percentile(change, 95)), LEAST_CHANGE) if len(change) else 1.0
     return np.clip(np.concatenate([[0.0], change]) / usual, 0.0, 1.0)

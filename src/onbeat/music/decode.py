@@ -48,21 +48,25 @@ def _viterbi(log_odds: Array, intervals: Ints, cost: Array, change: Array, reach
 
 
 def decode_beats(log_odds: Array, space: BeatSpace, prior_weight: float) -> Ints:
-    """Frames of the most likely beats, increasing.
+    """Frames of the most likely beats, increasing; arguments as of :func:`decode`.
+
+    >>> from onbeat.music.tempo import beat_space
+    >>> heard = np.full(400, -1.0)
+    >>> heard[20::50] = 5.0
+    >>> decode_beats(heard, beat_space(100.0, 60.0), 1.0)[:4].tolist()
+    [20, 70, 120, 170]
+    """
+    return decode(log_odds, space, prior_weight)[0]
+
+
+def decode(log_odds: Array, space: BeatSpace, prior_weight: float) -> tuple[Ints, float]:
+    """Frames of the most likely beats, increasing, and their score: how much likelier than no beats (log).
 
     Parameters
     ----------
     log_odds : (N,) that a beat lies at each frame.
     space : the intervals and how they may follow each other.
     prior_weight : how much a second at an unusual tempo costs, per unit of the log prior.
-
-    Examples
-    --------
-    >>> from onbeat.music.tempo import beat_space
-    >>> heard = np.full(400, -1.0)
-    >>> heard[20::50] = 5.0
-    >>> decode_beats(heard, beat_space(100.0, 60.0), 1.0)[:4].tolist()
-    [20, 70, 120, 170]
     """
     kinds = len(space.intervals)
     likely = space.log_change > UNLIKELY
@@ -76,4 +80,4 @@ def decode_beats(log_odds: Array, space: BeatSpace, prior_weight: float) -> Ints
         beats.append(t)
         kind = int(came[t, kind])
         t -= int(space.intervals[kind])
-    return np.array(beats[::-1], dtype=np.int64)
+    return np.array(beats[::-1], dtype=np.int64), float(final.max())

@@ -1,4 +1,7 @@
-"""Musical intensity over time: low in a quiet introduction, high in a chorus."""
+"""Musical intensity over time: low in a quiet introduction, high in a chorus.
+
+The default, :func:`perceived_intensity`, is what a dancer hears; :func:`intensity` has Eq. 7 of Shiratori 2006 in it.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +10,13 @@ from scipy.ndimage import gaussian_filter1d
 
 from onbeat._shapes import Array, Float32, Times
 from onbeat.music.hearing import LOWEST_TONE, TONES
+from onbeat.music.profile import Profile
 
 RATE = 10.0  # [Hz]
 SMOOTHING = 0.5  # [s] standard deviation: about a beat
 LOUDNESS_EXPONENT = 0.3  # Stevens: loudness grows with power to the 0.3
 MELODY_SHARE = 0.5
+NEWS_SHARE = 0.3  # of new sound beside loudness: of two passages as loud, the one with more attacks is more intense
 
 
 def normalised(values: Array, low: float = 5.0, high: float = 95.0) -> Array:
@@ -35,14 +40,37 @@ def melody_power(tones: Float32) -> Array:
     return peaks[:, (frequencies >= 250.0) & (frequencies <= 1000.0)].sum(axis=1, dtype=np.float64)
 
 
+def perceived_intensity(profile: Profile) -> tuple[Times, Array]:
+    """Times at 10 Hz and intensity 0…1: loudness as meters weight it (BS.1770) and the ear grows it, and new sound.
+
+    Both are held against their own loud passages, so that the volume of the whole song changes nothing; within a song,
+    what is louder is more intense.
+    """
+    loud = _evened(profile.power, profile.rate) ** LOUDNESS_EXPONENT
+    news = _evened(profile.news, profile.rate)
+    both = (1.0 - NEWS_SHARE) * _to_loud_passages(loud) + NEWS_SHARE * _to_loud_passages(news)
+    times = _grid(profile.duration)
+    return times, normalised(np.interp(times, np.arange(len(both)) / profile.rate, both))
+
+
+def _grid(duration: float) -> Times:
+    times = np.arange(int(np.ceil(duration * RATE)) + 1) / RATE
+    return times[times <= duration]
+
+
+def _evened(values: Array | Float32, rate: float) -> Array:
+    return gaussian_filter1d(np.maximum(values.astype(np.float64), 0.0), SMOOTHING * rate, mode="nearest")
+
+
+def _to_loud_passages(values: Array) -> Array:
+    return values / max(float(np.percentile(values, 95)), 1e-12)
+
+
 def intensity(tones: Float32, loudness: Float32, rate: float, duration: float) -> tuple[Times, Array]:
     """Times at 10 Hz and intensity 0…1: the melody of Eq. 7 and the whole sound, both as loud as the ear has them."""
-    times = np.arange(int(np.ceil(duration * RATE)) + 1) / RATE
-    times = times[times <= duration]
-
-    def scale(power: Array) -> Array:
-        loud = gaussian_filter1d(np.maximum(power, 0.0), SMOOTHING * rate, mode="nearest") ** LOUDNESS_EXPONENT
-        return loud / max(float(np.percentile(loud, 95)), 1e-12)
-
-    both = MELODY_SHARE * scale(melody_power(tones)) + (1.0 - MELODY_SHARE) * scale(loudness.astype(np.float64))
+    times = _grid(duration)
+    melody, whole = (
+        _to_loud_passages(_evened(power, rate) ** LOUDNESS_EXPONENT) for power in (melody_power(tones), loudness)
+    )
+    both = MELODY_SHARE * melody + (1.0 - MELODY_SHARE) * whole
     return times, normalised(np.interp(times, np.arange(len(both)) / rate, both))

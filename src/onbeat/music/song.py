@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated
 
@@ -10,8 +11,11 @@ import numpy as np
 
 from onbeat._shapes import Array, Times
 from onbeat.errors import AudioError
+from onbeat.music.tempo_curve import TempoCurve, tempo_curve
 
 VERSION = 1
+
+ARRAYS = ("beats", "downbeats", "chord_change", "intensity_times", "intensity", "beat_strength", "confidence")
 
 Said = msgspec.Meta
 
@@ -21,6 +25,24 @@ class IntensityDocument(msgspec.Struct, frozen=True):
 
     times: Annotated[list[float], Said(description="seconds")]
     values: Annotated[list[float], Said(description="0…1, one for each time")]
+
+
+class TempoDocument(msgspec.Struct, frozen=True):
+    """The tempo as it wanders: a line through the eight beats around each."""
+
+    times: Annotated[list[float], Said(description="seconds: the beats")] = msgspec.field(default_factory=list[float])
+    bpm: Annotated[list[float], Said(description="beats a minute, one for each time")] = msgspec.field(
+        default_factory=list[float]
+    )
+
+
+class SectionDocument(msgspec.Struct, frozen=True):
+    """A stretch of the song that is of one kind."""
+
+    start: Annotated[float, Said(description="seconds")]
+    end: Annotated[float, Said(description="seconds: where the next begins, or the song ends")]
+    kind: Annotated[str, Said(description="`intro`, `build-up`, `break`, `main` or `ending`")]
+    novelty: Annotated[float, Said(description="0…1: how much the music changes at its start; 0 for the first")] = 0.0
 
 
 class SongDocument(msgspec.Struct, frozen=True):
@@ -39,6 +61,34 @@ class SongDocument(msgspec.Struct, frozen=True):
     beat_strength: Annotated[list[float], Said(description="0…1 for each beat: its accent; 1 where it is left out")] = (
         msgspec.field(default_factory=list[float])
     )
+    confidence: Annotated[
+        list[float], Said(description="0…1 for each beat: how likely it is right; none where that is not known")
+    ] = msgspec.field(default_factory=list[float])
+    tempo_curve: Annotated[TempoDocument, Said(description="the tempo as it wanders; follows from the beats")] = (
+        msgspec.field(default_factory=TempoDocument)
+    )
+    chord_root: Annotated[
+        list[str],
+        Said(
+            description="from each beat to the next the chord, by its root and third: `C:maj`, `A:min`, `N` for no "
+            "chord; none where they are not known"
+        ),
+    ] = msgspec.field(default_factory=list[str])
+    sections: Annotated[
+        list[SectionDocument], Said(description="one after the other over all of the song; none where not known")
+    ] = msgspec.field(default_factory=list[SectionDocument])
+    key: Annotated[str, Said(description="`G:minor`; empty where none is heard or it is not known")] = ""
+    tuning: Annotated[float, Said(description="cents above A = 440 Hz, −50…50")] = 0.0
+
+
+@dataclass(frozen=True)
+class Section:
+    """A stretch of a song: ``start`` and ``end`` in seconds, one of ``sections.KINDS``, how new it is at its start."""
+
+    start: float
+    end: float
+    kind: str
+    novelty: float = 0.0
 
 
 def _frozen(values: object) -> Array:
@@ -64,6 +114,14 @@ class Song:
     method : which method heard it.
     title : its name, for people.
     beat_strength : (B,) accent of each beat, 0…1; all 1 where nothing is given.
+    confidence : (B,) how likely each beat is right, 0…1; empty where that is not known.
+    chord_root : B chords, ``C:maj``, ``A:min`` or ``N``, each from a beat to the next; empty where not known.
+    sections : one after the other, over all of the song; empty where not known.
+    key : ``G:minor``; empty where none is heard.
+    tuning : cents above A = 440 Hz.
+
+    Confidence and chords of another number than the beats are not kept: they belonged to the beats from before a
+    ``dataclasses.replace``.
 
     Examples
     --------
@@ -83,12 +141,22 @@ class Song:
     method: str = ""
     title: str = ""
     beat_strength: Array = field(default_factory=lambda: np.zeros(0))
+    confidence: Array = field(default_factory=lambda: np.zeros(0))
+    chord_root: Sequence[str] = ()
+    sections: Sequence[Section] = ()
+    key: str = ""
+    tuning: float = 0.0
 
     def __post_init__(self) -> None:
         if not len(self.beat_strength):
             object.__setattr__(self, "beat_strength", np.ones(len(self.beats)))
-        for name in ("beats", "downbeats", "chord_change", "intensity_times", "intensity", "beat_strength"):
+        for name in ARRAYS:
             object.__setattr__(self, name, _frozen(getattr(self, name)))
+        for name in ("confidence", "chord_root"):
+            if len(getattr(self, name)) != len(self.beats):
+                object.__setattr__(self, name, _frozen([]) if name == "confidence" else ())
+        object.__setattr__(self, "chord_root", tuple(self.chord_root))
+        object.__setattr__(self, "sections", tuple(self.sections))
         if len(self.beat_strength) != len(self.beats):
             raise AudioError(f"a song with {len(self.beats)} beats has {len(self.beat_strength)} beat strengths")
         if len(self.chord_change) != len(self.beats) or len(self.intensity) != len(self.intensity_times):
@@ -102,6 +170,11 @@ class Song:
         if not len(self.intensity):
             return np.zeros(len(times))
         return np.interp(times, self.intensity_times, self.intensity)
+
+    @property
+    def tempo_curve(self) -> TempoCurve:
+        """The local tempo at each beat."""
+        return tempo_curve(self.beats)
 
     def cut(self, start: float, seconds: float) -> Song:
         """The song from ``start`` on for ``seconds``, its times shifted to begin at 0."""
@@ -120,10 +193,16 @@ class Song:
             method=self.method,
             title=self.title,
             beat_strength=self.beat_strength[inside],
+            confidence=self.confidence[inside] if len(self.confidence) else self.confidence,
+            chord_root=[name for name, kept in zip(self.chord_root, inside, strict=False) if kept],
+            sections=_sections_within(self.sections, start, end),
+            key=self.key,
+            tuning=self.tuning,
         )
 
     def document(self) -> SongDocument:
         """The song as its document; times to 0.1 ms, values to 1e-4."""
+        curve = tempo_curve(np.round(self.beats, 4))  # of the beats that a reader has
         return SongDocument(
             version=VERSION,
             duration=round(self.duration, 4),
@@ -138,6 +217,15 @@ class Song:
             method=self.method,
             title=self.title,
             beat_strength=np.round(self.beat_strength, 4).tolist(),
+            confidence=np.round(self.confidence, 4).tolist(),
+            tempo_curve=TempoDocument(np.round(curve.times, 4).tolist(), np.round(curve.bpm, 3).tolist()),
+            chord_root=list(self.chord_root),
+            sections=[
+                SectionDocument(round(part.start, 4), round(part.end, 4), part.kind, round(part.novelty, 4))
+                for part in self.sections
+            ],
+            key=self.key,
+            tuning=round(self.tuning, 1),
         )
 
     def to_json(self) -> bytes:
@@ -153,6 +241,7 @@ class Song:
             raise AudioError(f"{source}: not a song document: {error}; write one with `onbeat listen`") from None
         if document.version != VERSION:
             raise AudioError(f"{source}: version {document.version}; this onbeat reads version {VERSION}")
+        _check_lengths(document, source)
         return cls(
             document.duration,
             document.tempo,
@@ -165,4 +254,26 @@ class Song:
             document.method,
             document.title,
             np.array(document.beat_strength),
+            np.array(document.confidence),
+            document.chord_root,
+            [Section(part.start, part.end, part.kind, part.novelty) for part in document.sections],
+            document.key,
+            document.tuning,
         )
+
+
+def _check_lengths(document: SongDocument, source: str) -> None:
+    for name, values in (("confidences", document.confidence), ("chord roots", document.chord_root)):
+        if len(values) not in (0, len(document.beats)):
+            raise AudioError(
+                f"{source}: {len(document.beats)} beats have {len(values)} {name}; expected one for each beat, or none"
+            )
+
+
+def _sections_within(sections: Sequence[Section], start: float, end: float) -> list[Section]:
+    """The parts of the sections within a stretch, on a clock that begins with it."""
+    return [
+        Section(max(part.start - start, 0.0), min(part.end, end) - start, part.kind, part.novelty)
+        for part in sections
+        if part.end > start and part.start < end
+    ]

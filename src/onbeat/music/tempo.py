@@ -109,6 +109,8 @@ def _halved(song: Song) -> Song:
         downbeats=song.downbeats[np.isin(song.downbeats, song.beats[kept])],
         chord_change=change,
         beat_strength=song.beat_strength[kept],
+        confidence=song.confidence[kept] if len(song.confidence) else song.confidence,
+        chord_root=[song.chord_root[beat] for beat in kept] if song.chord_root else (),
     )
 
 
@@ -120,6 +122,16 @@ def _doubled(song: Song) -> Song:
     change[0::2] = song.chord_change
     strength[0::2] = song.beat_strength
     strength[1::2] = 0.5 * np.minimum(song.beat_strength[1:], song.beat_strength[:-1])
+    sure = np.repeat(song.confidence, 2)[:-1]
+    if len(sure):
+        sure[1::2] = np.minimum(song.confidence[1:], song.confidence[:-1])
     return replace(
-        song, tempo=2.0 * song.tempo, meter=2 * song.meter, beats=beats, chord_change=change, beat_strength=strength
+        song,
+        tempo=2.0 * song.tempo,
+        meter=2 * song.meter,
+        beats=beats,
+        chord_change=change,
+        beat_strength=strength,
+        confidence=sure,
+        chord_root=[root for root in song.chord_root for _ in (0, 1)][:-1] if song.chord_root else (),
     )

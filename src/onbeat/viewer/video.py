@@ -91,7 +91,7 @@ def _whole_file(path: Path) -> Generator[Path]:
         temporary.chmod(0o644)
         temporary.replace(path)
     except OSError as error:
-        raise OnbeatError(f"cannot write {path}: {error.strerror or error}; choose another folder with -o") from None
+        raise OnbeatError(f"cannot write {path}: {error.strerror or error}; choose another folder") from None
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)

@@ -1,0 +1,1 @@
+"""Making the weights of the learned activation: patterns, sounds, rooms, training. Not needed to use onbeat."""
