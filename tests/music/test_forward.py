@@ -78,7 +78,7 @@ def test_a_step_of_the_tempo_is_followed() -> None:
 
 
 def test_tempi_rest_while_nothing_sounds() -> None:
-    filter = ForwardFilter(100.0)
+    filter = ForwardFilter(100.0, steadiness=40.0, prior_weight=3.0)
     run(filter, pulses(501, 50))
     run(filter, np.zeros(500), sounding=0.0)
     guess = filter.near(50.0, 50.0)

@@ -6,7 +6,7 @@ from math import log
 
 from onbeat.music.forward import ForwardFilter, Guess
 
-FIRST = 0.05  # share of the chains that the first reading needs
+FIRST = 0.03  # share of the chains that the first reading needs
 SWITCH = 3.0  # log of another reading's share over that of the one followed, summed over looks, to change over
 LOOK = 4  # frames between two looks for another reading
 SURE = 0.5  # share from which on a reading is trusted

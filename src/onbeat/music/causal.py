@@ -24,12 +24,12 @@ from onbeat.music.presence import MOVING, Presence
 
 EMPTY = 0.4  # onset activation at which a moment is as likely a beat as not
 GAIN = 5.0  # log odds per unit of onset activation
-LEARNED_GAIN = 1.2  # log odds per log odds of the learned activation
+LEARNED_GAIN = 1.06  # log odds per log odds of the learned activation
 LEARNED_BIAS = 0.3  # log odds added to them: a beat is rare
 ONSET_SHARE = 0.5  # of the onsets' log odds, beside the learned ones
-EAGER, SHARPER = 0.8, 0.5  # log odds, and share of them, by which an unsure tracker listens harder
+EAGER, SHARPER = 0.8, 0.25  # log odds, and share of them, by which an unsure tracker listens harder
 DELAY = 0.0  # [s] that the filter is early
-CONFIDENCE = np.array([0.2, 0.24, 0.9])  # log odds of a right beat, per log odds of the share, evidence, alone
+CONFIDENCE = np.array([0.38, 0.26, 0.47])  # log odds of a right beat, per log odds of the share, evidence, alone
 EVIDENCE = 3.0  # [s] time constant of the evidence
 FAMILIAR = 1.0  # [s] of music until it is trusted
 HOLD = 8.0  # [s] without music, through which beats are still said

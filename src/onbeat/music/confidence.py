@@ -12,8 +12,8 @@ from onbeat._shapes import Array, Float32, Ints
 
 NEAR = 2  # frames around a beat in which the activation is looked for
 SPAN = 4  # beats before and after that speak for a beat
-CUES = np.array([2.2, 2.4, -1.4])  # per unit of: activation at the beats around, at the beat itself; unevenness
-BIAS = -1.2
+CUES = np.array([2.7, 3.0, -0.5])  # per unit of: activation at the beats around, at the beat itself; unevenness
+BIAS = -1.8
 
 
 def _around(values: Array) -> Array:

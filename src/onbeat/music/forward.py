@@ -15,8 +15,8 @@ import numpy as np
 from onbeat._shapes import Array, Ints
 from onbeat.music.tempo import BeatSpace, beat_space
 
-STEADINESS = 40.0  # cost of a change of tempo, per unit of its ratio
-PRIOR_WEIGHT = 3.0  # per second
+STEADINESS = 25.0  # cost of a change of tempo, per unit of its ratio
+PRIOR_WEIGHT = 4.5  # per second
 LEAP = 1e-3  # chance, at each beat, of any other tempo
 RESTART = 1e-4  # chance, at each frame, that the music starts anew there
 PHASES = 24  # parts of a beat

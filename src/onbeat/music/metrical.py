@@ -22,7 +22,7 @@ BESIDE = 0.2  # of a beat, around the beats heard first, where none is looked fo
 FORBIDDEN = 20.0  # log odds taken off there
 # What a level's score weighs, fitted with songs of the pattern generator in ``training/``: frames are far from
 # independent, so the log odds of beats count a tenth, those of bars for the most part.
-BEAT_SHARE, TEMPO_SHARE, BAR_SHARE = 0.11, 0.05, 0.75
+BEAT_SHARE, TEMPO_SHARE, BAR_SHARE = 0.11, 0.05, 0.9
 
 
 def in_range(space: BeatSpace, slowest: float, fastest: float) -> BeatSpace:

@@ -22,7 +22,7 @@ NO_HARMONY = 0.9  # new harmony that says nothing either way
 
 LEARNED = 1.0  # per unit of the learned log odds
 RARE = 0.5  # added to them: a beat is heard in few of the frames around it
-ONSETS_BESIDE, HARMONY_BESIDE = 3.0, 1.0  # as GAIN and HARMONY_GAIN, beside the learned activation
+ONSETS_BESIDE, HARMONY_BESIDE = 2.0, 1.0  # as GAIN and HARMONY_GAIN, beside the learned activation
 
 
 def unit_power(values: Array) -> Array:
@@ -60,7 +60,7 @@ def beat_log_odds(learned: Array | Float32, strength: Array, harmony: Array) -> 
 
     >>> odds = beat_log_odds(np.array([-5.0, 3.0]), np.array([0.0, 3.0]), np.array([0.9, 0.9]))
     >>> odds.round(2).tolist()
-    [-5.4, 5.0]
+    [-5.1, 4.5]
     """
     beside = ONSETS_BESIDE * (activation(strength) - EMPTY) + HARMONY_BESIDE * (harmony - NO_HARMONY)
     return LEARNED * learned.astype(np.float64) + RARE + beside
