@@ -9,6 +9,9 @@ import msgspec
 
 from onbeat.dance.document import DanceDocument
 from onbeat.formats.report import FileReport
+from onbeat.keyposes.document import KeyposesDocument
+from onbeat.keyposes.judging import AnswersDocument
+from onbeat.keyposes.lowdim_document import LowdimDocument
 from onbeat.music.song import SongDocument
 
 PAGE = Path(__file__).parent / "documents.md"
@@ -37,6 +40,9 @@ DOCUMENTS = (
         "song.json", SongDocument, "Written by `onbeat listen SONG -o song.json` and, as danced to, by `onbeat dance`."
     ),
     Document("dance.json", DanceDocument, "Written by `onbeat dance` beside the motion."),
+    Document("keyposes.json", KeyposesDocument, "Written by `onbeat keyposes MOTION -o FOLDER`."),
+    Document("lowdim.json", LowdimDocument, "Written by `onbeat lowdim MOTIONS… -o FOLDER`."),
+    Document("answers.json", AnswersDocument, "Saved by `judge.html`, read by `onbeat lowdim --judged`."),
     Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),
 )
 

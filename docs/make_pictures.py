@@ -8,11 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from onbeat.examples.dancers import DANCERS
+from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
 from onbeat.examples.troupe import FIGURES
+from onbeat.keyposes.extract import find_keyposes
 from onbeat.motion import Motion
 from onbeat.viewer.camera import Camera
 from onbeat.viewer.figure import DRESSED, Figure, ground_height
+from onbeat.viewer.keypose_sheet import keypose_pages, save_pages
 from onbeat.viewer.raster import render_frame
 from onbeat.viewer.sheet import write_png
 from onbeat.viewer.stage import Stage
@@ -68,6 +71,15 @@ def troupe_picture() -> np.ndarray:
     return render_frame(np.concatenate(places), company(bodies, joints), camera, SIZE, stage)
 
 
+def keypose_picture(path: Path) -> None:
+    """The sheet of the folk dance: two cycles, eight keyposes each."""
+    clip = perform(DANCERS[0], [FOLK_DANCE], 1.0, 2, np.random.default_rng(0))
+    within = clip.motion[: round((clip.keyposes[-1] + 0.6) * clip.motion.fps)]
+    found = find_keyposes(within, clip.beats)
+    save_pages(keypose_pages(found, within, title="the folk dance", cycle=12)[:1], path)
+
+
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
+    keypose_picture(FOLDER / "keyposes.png")
     write_png(FOLDER / "troupe.png", troupe_picture())

@@ -49,7 +49,7 @@ def test_a_folder_without_a_library_says_how_to_build_one(tmp_path):
 @pytest.mark.parametrize(
     ("damage", "told"),
     [
-        (lambda text: text.replace(b'"version": 1', b'"version": 2'), "is of version 2, 1 is expected"),
+        (lambda text: text.replace(b'"version": 2', b'"version": 1'), "is of version 1, 2 is expected"),
         (lambda text: text[: len(text) // 2], "is damaged"),
         (lambda text: b"", "is damaged"),
         (lambda text: b"\xff\xfe", "is damaged"),

@@ -1,6 +1,6 @@
 // Written by `python -m onbeat.viewer.typescript` from contract.py. Do not edit.
 
-export const VERSION = 1;
+export const VERSION = 2;
 
 /** A tapering capsule between two joints of the page; see :mod:`onbeat.viewer.shape`. */
 export interface CapsuleData {
@@ -42,6 +42,23 @@ export interface MoveData {
   at_s: number;
 }
 
+/** A keypose at ``time``: its number and beat, both from 1, what rests there, and the yaw that the body faces. */
+export interface KeyposeData {
+  time: number;
+  number: number;
+  beat: number;
+  source: string;
+  facing: number;
+}
+
+/** Global and local energy over time, 1 being the highest of both, and when candidates for keyposes lie on them. */
+export interface EnergyData {
+  world: CurveData;
+  local: CurveData;
+  world_candidates: number[];
+  local_candidates: number[];
+}
+
 /** A figure of the dance, in words for people. */
 export interface MetricData {
   name: string;
@@ -70,6 +87,8 @@ export interface PageData {
   stops: number[];
   moves: MoveData[];
   joins: number[];
+  keyposes: KeyposeData[];
+  energy: EnergyData | null;
   music_intensity: CurveData;
   motion_intensity: CurveData;
   metrics: MetricData[];

@@ -1,8 +1,8 @@
 // Drawing what happens in a stretch of time on a strip: beats, waveform, stops, clips and joins.
 
 import type { ClipColours } from "./colours";
-import type { PageData } from "./contract";
-import { type Curve, lastBefore } from "./data";
+import type { EnergyData, PageData } from "./contract";
+import { type Curve, lastBefore, readCurve } from "./data";
 
 export const INK = "#262b3d";
 export const SOFT = "#8d93a5";
@@ -112,6 +112,48 @@ export function drawStops(pen: Pen, span: Span, page: PageData, middle: number, 
   });
 }
 
+export const KEYPOSE_COLOURS: Record<string, string> = { global: "#1f3f77", local: "#c2611a" };
+const OTHER = "#5b6472";
+
+/** Numbered marks, round or square as what rests there, on lines down to `bottom`; dots where they would crowd. */
+export function drawKeyposes(
+  pen: Pen, span: Span, page: PageData, middle: number, size: number, bottom: number, now = -1,
+): void {
+  const times = page.keyposes.map(({ time }) => time);
+  const shown = lastBefore(times, now + 0.001);
+  const crowded = page.keyposes.length * 3 * size * (span.to - span.from) > page.duration * span.width;
+  let free = -Infinity; // where the last number ends
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  page.keyposes.forEach((keypose, i) => {
+    if (keypose.time < span.from - 1 || keypose.time > span.to + 1) return;
+    const x = xOf(span, keypose.time);
+    const reach = i === shown ? size + 1.5 : size;
+    const half = Math.max(reach, 2 + 3.4 * String(keypose.number).length);
+    const numbered = crowded ? i === shown : x - half > free;
+    pen.fillStyle = i === shown ? ACCENT : (KEYPOSE_COLOURS[keypose.source] ?? OTHER);
+    pen.globalAlpha = 0.5;
+    if (bottom > middle) pen.fillRect(x - 0.75, middle, 1.5, bottom - middle);
+    pen.globalAlpha = 1;
+    if (!numbered) return rounded(pen, x - 2, middle - 3, 4, 6, keypose.source === "local" ? 0 : 2);
+    rounded(pen, x - half, middle - reach, 2 * half, 2 * reach, keypose.source === "local" ? 2 : reach);
+    pen.fillStyle = "#ffffff";
+    pen.fillText(String(keypose.number), x, middle + 0.5);
+    free = x + half;
+  });
+  pen.textAlign = "start";
+}
+
+/** The time of the keypose nearest to a place, if it is within some pixels; else undefined. */
+export function keyposeAt(span: Span, page: PageData, x: number, within: number): number | undefined {
+  let [best, found]: [number, number | undefined] = [within, undefined];
+  for (const { time } of page.keyposes) {
+    const off = Math.abs(xOf(span, time) - x);
+    if (off <= best) [best, found] = [off, time];
+  }
+  return found;
+}
+
 export function drawJoins(pen: Pen, span: Span, page: PageData, top: number, bottom: number): void {
   pen.strokeStyle = INK;
   pen.lineWidth = 1;
@@ -132,7 +174,9 @@ export function drawCurve(pen: Pen, span: Span, curve: Curve, top: number, botto
   // A point each 3 px is enough: more would draw a long song as a thicket.
   const step = Math.max(1, Math.round((3 * curve.rate * (span.to - span.from)) / span.width));
   pen.beginPath();
-  for (let i = 0; i < curve.values.length; i += step) {
+  const first = Math.max(Math.floor((span.from * curve.rate) / step) - 1, 0) * step;
+  const end = Math.min(curve.values.length, span.to * curve.rate + 2 * step);
+  for (let i = first; i < end; i += step) {
     const level = mean(curve.values, i - step / 2, i + step / 2 + 1);
     pen.lineTo(xOf(span, i / curve.rate), bottom - level * (bottom - top));
   }
@@ -146,5 +190,35 @@ export function drawCurve(pen: Pen, span: Span, curve: Curve, top: number, botto
     pen.lineWidth = 1.5;
     pen.lineJoin = "round";
     pen.stroke();
+  }
+}
+
+export type EnergyCurves = { name: string; curve: Curve; candidates: readonly number[] }[];
+
+export function readEnergy(energy: EnergyData): EnergyCurves {
+  return [
+    { name: "local", curve: readCurve(energy.local), candidates: energy.local_candidates },
+    { name: "global", curve: readCurve(energy.world), candidates: energy.world_candidates },
+  ];
+}
+
+/** Both energies, and where asked for hollow marks, round and square, at their candidates. */
+export function drawEnergy(
+  pen: Pen, span: Span, energies: EnergyCurves, top: number, bottom: number, marked: boolean,
+): void {
+  for (const { name, curve, candidates } of energies) {
+    const colour = KEYPOSE_COLOURS[name];
+    drawCurve(pen, span, curve, top, bottom, colour, false);
+    if (!marked) continue;
+    pen.fillStyle = "#ffffff";
+    inside(candidates, span, 1, (time) => {
+      const level = curve.values[Math.round(time * curve.rate)] ?? 0;
+      const [x, y] = [xOf(span, time), bottom - level * (bottom - top)];
+      pen.beginPath();
+      if (name === "local") pen.rect(x - 2.5, y - 2.5, 5, 5);
+      else pen.arc(x, y, 3, 0, 2 * Math.PI);
+      pen.fill();
+      pen.stroke();
+    });
   }
 }

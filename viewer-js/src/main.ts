@@ -5,6 +5,7 @@ import { Clock } from "./clock";
 import { ClipColours } from "./colours";
 import type { PageData } from "./contract";
 import { lastBefore, readPage } from "./data";
+import { Keyposes } from "./keyposes";
 import { Panel } from "./panel";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
@@ -21,9 +22,11 @@ function start(): void {
   };
   const now = (): number => clock.now(performance.now());
   const clicks = new Clicks(clock, page);
-  const panel = new Panel(page, clock, stage, colours, clicks, seek);
+  const keyposes = new Keyposes(page, clock, element("poses"), element("keypose"), seek);
+  const panel = new Panel(page, clock, stage, colours, clicks, keyposes, seek);
   const [detail, overview] = [element("detail"), element("overview")] as HTMLCanvasElement[];
   const timeline = new Timeline(detail, overview, page, colours, seek, now);
+  keyposes.draw(stage.dancer);
   let before = performance.now();
   const frame = (at: number): void => {
     const time = clock.now(at);
@@ -33,6 +36,7 @@ function start(): void {
     caughtUp = true;
     timeline.draw(time);
     clicks.update(time);
+    keyposes.update(time);
     panel.update(time, beat.since);
     if (clock.playing && time >= page.duration) clock.pause();
     before = at;
@@ -42,7 +46,7 @@ function start(): void {
   if (page.audio) {
     clock.load(page.audio).catch((error: unknown) => panel.say(`This browser cannot play the sound: ${String(error)}`));
   }
-  expose(page, clock, stage, clicks, seek);
+  expose(page, clock, stage, clicks, keyposes, seek);
 }
 
 function lastBeat(page: PageData, time: number): { since: number; strength: number } {
@@ -54,12 +58,15 @@ function lastBeat(page: PageData, time: number): { since: number; strength: numb
 }
 
 /** A small door for scripts and tests: `onbeat.state()`, `onbeat.seek(12)`, `onbeat.play()`, `onbeat.pause()`. */
-function expose(page: PageData, clock: Clock, stage: Stage, clicks: Clicks, seek: (time: number) => void): void {
+function expose(
+  page: PageData, clock: Clock, stage: Stage, clicks: Clicks, keyposes: Keyposes, seek: (time: number) => void,
+): void {
   const state = () => ({
     time: clock.now(performance.now()),
     playing: clock.playing,
     sound: clock.hasSound,
     clicks: clicks.sounded,
+    keypose: keyposes.at(clock.now(performance.now())),
     duration: page.duration,
     names: page.joints,
     joints: Array.from(stage.dancer.joints),

@@ -5,6 +5,7 @@ import type { Clock } from "./clock";
 import type { ClipColours } from "./colours";
 import type { PageData } from "./contract";
 import { lastBefore } from "./data";
+import type { Keyposes } from "./keyposes";
 import type { Stage } from "./stage";
 
 const SPEEDS = [1, 0.5, 0.25];
@@ -14,6 +15,9 @@ const LEGEND: [sign: string, colour: string, short: string, words: string][] = [
   ["┃", "#8d93a5", "beat", "beat; strong where a bar begins"],
   ["◆", "#262b3d", "stop", "stop of the hands"],
   ["┊", "#262b3d", "join", "join of two clips"],
+  ["∿", "#1f3f77", "global", "energy in the world; hollow where it is a candidate"],
+  ["∿", "#c2611a", "local", "energy in the body's own frame"],
+  ["●", "#1f3f77", "keypose", "keypose; square where only the body's own frame rests"],
   ["▆", "#d5dae4", "music", "intensity of the music"],
   ["∿", "#2f9c95", "dance", "intensity of the dance"],
 ];
@@ -29,6 +33,7 @@ export class Panel {
     private readonly stage: Stage,
     private readonly colours: ClipColours,
     private readonly clicks: Clicks,
+    private readonly keyposes: Keyposes,
     private readonly seek: (time: number) => void,
   ) {
     this.starts = page.moves.map((move) => move.at_s);
@@ -41,6 +46,8 @@ export class Panel {
     on("follow", () => this.toggleFollow());
     on("speed", () => this.nextSpeed());
     on("clicks", () => this.toggleClicks());
+    on("previous", () => this.keyposes.step(-1));
+    on("next", () => this.keyposes.step(1));
     at("clicks").hidden = !this.clicks.possible;
     text("speed", "1×");
     at("overview").setAttribute("aria-valuemax", page.duration.toFixed(1));
@@ -86,7 +93,9 @@ export class Panel {
 
   private fillFigures(): void {
     const page = this.page;
-    const there = [page.beats, page.stops, page.joins, page.music_intensity.base64, page.motion_intensity.base64];
+    const curves = [page.music_intensity.base64, page.motion_intensity.base64];
+    const energy = page.energy ? "there" : "";
+    const there = [page.beats, page.stops, page.joins, energy, energy, page.keyposes, ...curves];
     for (const [sign, colour, short, words] of LEGEND.filter((_, i) => there[i].length > 0)) {
       at("key").append(entry(sign, colour, short));
       at("legend").append(entry(sign, colour, words));
@@ -136,6 +145,10 @@ export class Panel {
       End: () => this.seek(this.page.duration),
       f: () => this.toggleFollow(),
       c: () => this.toggleClicks(),
+      "[": () => this.keyposes.step(-1),
+      "]": () => this.keyposes.step(1),
+      p: () => this.keyposes.step(-1), // where brackets are hard to type
+      n: () => this.keyposes.step(1),
     };
     const action = actions[event.key];
     if (!action) return;

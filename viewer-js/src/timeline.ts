@@ -7,6 +7,7 @@ import * as lanes from "./lanes";
 import { drag, Strip } from "./strip";
 
 const SECONDS_PER_PIXEL = 1 / 95;
+const [LANE, WHOLE_LANE] = [20, 14]; // [px] height of the keyposes' lanes above the two strips
 
 /** The waveform bent so that quiet and loud songs alike show their notes: its median becomes 0.45. */
 function evened(wave: Curve): Curve {
@@ -22,6 +23,7 @@ export class Timeline {
   private readonly wave: Curve;
   private readonly music: Curve;
   private readonly motion: Curve;
+  private readonly energy?: lanes.EnergyCurves;
 
   constructor(
     detail: HTMLCanvasElement,
@@ -34,9 +36,10 @@ export class Timeline {
     [this.detail, this.overview] = [new Strip(detail), new Strip(overview)];
     this.picture = new Strip(document.createElement("canvas"));
     this.wave = evened(readCurve(page.waveform));
-    detail.hidden = !(page.beats.length || page.stops.length || page.moves.length || this.wave.values.length);
+    detail.hidden = !(page.beats.length || page.stops.length || page.moves.length || page.keyposes.length || this.wave.values.length);
     this.music = readCurve(page.music_intensity);
     this.motion = readCurve(page.motion_intensity);
+    this.energy = page.energy ? lanes.readEnergy(page.energy) : undefined;
     this.listenOverview(seek);
     this.listenDetail(seek);
   }
@@ -62,20 +65,24 @@ export class Timeline {
     if (!height) return;
     const span = this.around(now);
     const clips = this.page.moves.length ? 22 : 0;
-    const middle = (height - clips) / 2 + 4;
+    const lane = this.page.keyposes.length ? LANE : 0;
+    const middle = (height - clips + lane) / 2 + 4;
+    const tall = middle - lane - 16;
     pen.clearRect(0, 0, width, height);
     pen.fillStyle = "#fafafb";
     pen.fillRect(0, 0, width, height);
     pen.fillStyle = "#f1f3f6";
     const [left, right] = [Math.max(lanes.xOf(span, 0), 0), Math.min(lanes.xOf(span, this.page.duration), width)];
-    pen.fillRect(left, 0, right - left, height - clips - 4);
+    pen.fillRect(left, lane, right - left, height - clips - 4 - lane);
     pen.font = lanes.FONT;
-    lanes.drawBeats(pen, span, this.page, 0, height - clips - 4);
-    lanes.drawWaveform(pen, span, this.wave, middle, middle - 16, "#d3d8e2", 3);
-    lanes.drawWaveform(pen, span, this.wave, middle, middle - 16, "#f0b9ab", 3, now);
+    lanes.drawBeats(pen, span, this.page, lane, height - clips - 4);
+    lanes.drawWaveform(pen, span, this.wave, middle, tall, "#d3d8e2", 3);
+    lanes.drawWaveform(pen, span, this.wave, middle, tall, "#f0b9ab", 3, now);
+    if (this.energy) lanes.drawEnergy(pen, span, this.energy, lane + 6, height - clips - 6, true);
     lanes.drawClips(pen, span, this.page, this.colours, height - clips, clips);
-    lanes.drawJoins(pen, span, this.page, 0, height - clips);
-    lanes.drawStops(pen, span, this.page, 9, 5, now);
+    lanes.drawJoins(pen, span, this.page, lane, height - clips);
+    lanes.drawStops(pen, span, this.page, lane + 9, 5, now);
+    lanes.drawKeyposes(pen, span, this.page, LANE / 2, 8, height - clips - 4, now);
     pen.fillStyle = lanes.ACCENT;
     pen.fillRect(width / 2 - 1, 0, 2, height);
   }
@@ -105,12 +112,16 @@ export class Timeline {
     return this.page.moves.length ? 16 : 0;
   }
 
+  private laneHeight(): number {
+    return this.page.keyposes.length ? WHOLE_LANE : 0;
+  }
+
   private waveMiddle(height: number): number {
-    return (height - this.clipsHeight() - 4) * 0.36;
+    return this.laneHeight() + (height - this.laneHeight() - this.clipsHeight() - 4) * 0.36;
   }
 
   private waveHalf(height: number): number {
-    return this.waveMiddle(height) - 1;
+    return this.waveMiddle(height) - this.laneHeight() - 1;
   }
 
   /** What does not move is drawn once for each size. */
@@ -126,17 +137,24 @@ export class Timeline {
     const span = this.whole();
     const clips = this.clipsHeight();
     const bottom = height - clips - 4;
-    const top = this.waveMiddle(height) * 2 + 2;
+    const top = this.waveMiddle(height) + this.waveHalf(height) + 3;
+    if (this.energy && !this.wave.values.length) {
+      lanes.drawEnergy(pen, span, this.energy, this.laneHeight() + 3, top - 6, false);
+    }
     lanes.drawCurve(pen, span, this.music, top, bottom, "#d9dee7", true);
     lanes.drawCurve(pen, span, this.motion, top, bottom, "#2f9c95", false);
     lanes.drawClips(pen, span, this.page, this.colours, height - clips, clips);
+    pen.font = "10px system-ui, sans-serif";
+    lanes.drawKeyposes(pen, span, this.page, WHOLE_LANE / 2, 6, 0);
   }
 
   private listenOverview(seek: (time: number) => void): void {
     const canvas = this.overview.canvas;
     const to = (event: PointerEvent) => {
       const box = canvas.getBoundingClientRect();
-      seek(((event.clientX - box.left) / box.width) * this.page.duration);
+      const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+      const keypose = y < this.laneHeight() ? lanes.keyposeAt(this.whole(), this.page, x, 8) : undefined;
+      seek(keypose ?? (x / box.width) * this.page.duration);
     };
     drag(canvas, to, to);
   }
@@ -145,10 +163,13 @@ export class Timeline {
   private listenDetail(seek: (time: number) => void): void {
     const canvas = this.detail.canvas;
     let [grip, moved] = [0, false];
+    let keypose: number | undefined;
     drag(
       canvas,
       (event) => {
-        [grip, moved] = [lanes.timeAt(this.around(this.now()), event.offsetX), false];
+        const span = this.around(this.now());
+        [grip, moved] = [lanes.timeAt(span, event.offsetX), false];
+        keypose = event.offsetY < LANE ? lanes.keyposeAt(span, this.page, event.offsetX, 14) : undefined;
       },
       (event) => {
         const time = grip - lanes.timeAt(this.around(0), event.offsetX);
@@ -156,7 +177,7 @@ export class Timeline {
         if (moved) seek(time);
       },
       () => {
-        if (!moved) seek(grip);
+        if (!moved) seek(keypose ?? grip);
       },
     );
   }

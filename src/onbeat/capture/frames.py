@@ -9,8 +9,10 @@ import numpy as np
 from onbeat._shapes import Positions, Rotations
 from onbeat.capture.body import template
 from onbeat.capture.gaps import fill_gaps
+from onbeat.capture.labels import NEEDED, check_enough, find_sites
 from onbeat.capture.placed import by_site, clusters, place_markers
 from onbeat.capture.pose import bridge_places, is_seen
+from onbeat.capture.sites import SITES
 from onbeat.capture.trunk import waist
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import frames_from
@@ -35,7 +37,8 @@ def marker_body_frames(
     BodyError
         If pelvis or shoulders have no markers.
     """
-    placed, _ = place_markers(markers, sites, ("shoulder",))
+    trunk, told = _on_trunk(markers, sites)
+    placed, _ = place_markers(trunk, told, ("shoulder",))
     seen = by_site(fill_gaps(placed, clusters(placed.names)).markers)
     turns, origin = waist(seen, template())
     sides = [seen.get(f"{side}_shoulder", seen.get(f"{side}_acromion")) for side in ("left", "right")]
@@ -45,6 +48,20 @@ def marker_body_frames(
 
 
 _HIP_M = 0.09
+_BONES = {"Hips"} | {
+    SITES[f"{side}_{place}"].segment for side in ("left", "right") for place in NEEDED["shoulder"].split()
+}
+
+
+def _on_trunk(
+    markers: Markers, sites: Mapping[str, Sequence[str]] | None
+) -> tuple[Markers, Mapping[str, Sequence[str]] | None]:
+    """Only the markers on the bones that tell the frame: the others would be filled for nothing."""
+    known = find_sites(markers.names, sites)
+    check_enough(known, markers.names, markers.name, ("shoulder",))
+    kept = [label for site, labels in known.items() if SITES[site].segment in _BONES for label in labels]
+    told = None if sites is None else {site: labels for site, labels in sites.items() if SITES[site].segment in _BONES}
+    return markers.chosen(list(dict.fromkeys(kept))), told
 
 
 def _bridged(path: Positions) -> Positions:

@@ -24,6 +24,16 @@ COMMANDS = {
         "Build and show motion libraries: clips and the joins between them.",
         "onbeat moves build my_clips -o my_library",
     ),
+    "keyposes": (
+        "onbeat.cli.keyposes:keyposes_app",
+        "Find the keyposes of a dance: the poses in which it rests on the beat; learn how, measure how well.",
+        "onbeat keyposes dance.bvh --music song.mp3 -o dance_keyposes",
+    ),
+    "lowdim": (
+        "onbeat.cli.lowdim:lowdim_command",
+        "Rebuild dances in a few dimensions, by keyposes and by uniform sampling, and test which looks right.",
+        "onbeat lowdim aiko.bvh bruno.bvh carla.bvh --in-cycle 8 --music song.mp3 -o lowdim",
+    ),
     "evaluate": (
         "onbeat.cli.evaluate:evaluate_command",
         "Measure how well a motion dances to a song: on the beat, with its intensity, on its feet, smoothly.",

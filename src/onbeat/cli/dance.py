@@ -11,7 +11,7 @@ import sys
 import tempfile
 from collections.abc import Generator
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import cyclopts
 from rich.console import Console
@@ -28,6 +28,9 @@ from onbeat.files import make_folder
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.fixes import Corrections
 from onbeat.music.song import Song
+
+if TYPE_CHECKING:
+    from onbeat.keyposes.extract import Keyposes
 
 Sound = tuple[Float32, int]
 FPS = (1.0, 1000.0)
@@ -252,7 +255,8 @@ def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages
     stages("writing", 0.3)
     write_motion(dance.motion, folder / "dance.glb")
     stages("writing", 0.5)
-    write_page(folder / "dance.html", dance.motion, dance.song, msgspec.to_builtins(dance.document), sound)
+    document = msgspec.to_builtins(dance.document)
+    write_page(folder / "dance.html", dance.motion, dance.song, document, sound, _keyposes(dance))
     write_atomically(folder / "dance.json", dance.document.to_json())
     write_atomically(folder / "song.json", dance.song.to_json())
     stages("writing", 1.0)
@@ -263,6 +267,16 @@ def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages
             folder / "dance.mp4", dance.motion, dance.song, sound, stops=dance.stops,
             progress=lambda share: stages("filming", share),
         )  # fmt: skip
+
+
+def _keyposes(dance: Dance) -> Keyposes | None:
+    """The keyposes of the dance on the beats it dances to; None where it is too short to have any."""
+    from onbeat.keyposes.extract import find_keyposes
+
+    try:
+        return find_keyposes(dance.motion, dance.song.beats)
+    except OnbeatError:
+        return None
 
 
 def _table(dance: Dance, output: Path) -> Table:

@@ -109,6 +109,7 @@ def _clip_rows(library: MoveLibrary) -> list[dict[str, Any]]:
             "fps": clip.motion.fps,
             "performer": None,
             "stops": len(clip.stops),
+            "keyposes": len(clip.keyposes),
             "joins": int(leaving[n]),
             "core": round(float(core[n]), 4),
         }
@@ -137,13 +138,15 @@ def _print(library: MoveLibrary, folder: Path, *, as_json: bool) -> None:
     if as_json:
         sys.stdout.write(msgspec.json.format(msgspec.json.encode(document), indent=2).decode() + "\n")
         return
-    table = Table("clip", "seconds", "fps", "performer", "stops", "joins", "in the core", box=None, pad_edge=False)
+    table = Table(
+        "clip", "seconds", "fps", "performer", "stops", "keyposes", "joins", "in the core", box=None, pad_edge=False
+    )
     for column in table.columns[1:]:
         column.justify = "right"
     for row in document["clips"]:
-        stops, joins = str(row["stops"]), str(row["joins"])
+        counts = [str(row[name]) for name in ("stops", "keyposes", "joins")]
         core = f"{row['core']:.0%}"
-        table.add_row(row["name"], f"{row['seconds']:.1f}", f"{row['fps']:g}", "unknown", stops, joins, core)
+        table.add_row(row["name"], f"{row['seconds']:.1f}", f"{row['fps']:g}", "unknown", *counts, core)
     screen = Console()
     screen.print(table, markup=False, emoji=False)
     error = document["joins_link_error"]

@@ -293,4 +293,5 @@ def _row(clip: Clip, read: Read) -> documents.Clips:
         len(clip.motion),
         len(clip.poses),
         len(clip.stops),
+        len(clip.keyposes),
     )

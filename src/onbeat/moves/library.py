@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from onbeat._shapes import Array, Float32, Ints, Times
 from onbeat.errors import LibraryError
+from onbeat.keyposes.own import own_keyposes
 from onbeat.motion.body import Body
 from onbeat.motion.features import hand_features, intensity_component
 from onbeat.motion.links import link_directions, link_error
@@ -39,6 +40,7 @@ class Clip:
     stops : seconds of the body's stops.
     intensity : (n,) Eq. 2 at each graph frame, m/s.
     poses : (n, D) pose vectors at each graph frame.
+    keyposes : seconds of its keyposes by its own pulse; none where it keeps none.
     """
 
     motion: Motion
@@ -48,6 +50,7 @@ class Clip:
     stops: Times
     intensity: Array
     poses: Float32
+    keyposes: Times = field(default_factory=lambda: np.zeros(0))
 
     @classmethod
     def of(cls, motion: Motion, name: str = "", source: int = 0, *, mirrored: bool = False) -> Clip:
@@ -63,6 +66,7 @@ class Clip:
             features.body_stops,
             intensity_component(features, grid.times),
             pose_vectors(grid, body),
+            own_keyposes(motion),
         )
 
 

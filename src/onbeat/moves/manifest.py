@@ -1,10 +1,11 @@
 """``library.json``: what is in the folder of a library; the arrays lie beside it.
 
-Version 1. ``data`` names the sub-folder of arrays, NumPy ``.npy`` files without pickles. Clips follow each other in
+Version 2. ``data`` names the sub-folder of arrays, NumPy ``.npy`` files without pickles. Clips follow each other in
 them: clip k has ``frames`` rows of ``rotations`` (float64, J × 4, wxyz) and ``root_positions`` (float64, 3, metres),
-``poses`` rows of ``poses`` (float32, D) and ``intensity`` (float64), and ``stops`` rows of ``stops`` (float64,
-seconds). ``first``, ``second`` (int64) and ``distance`` (float32) are the close pairs of graph frames, counted over all
-clips; ``indptr``, ``targets`` (int64) and ``costs`` (float32) the joins made of them, as of ``graph.MotionGraph``.
+``poses`` rows of ``poses`` (float32, D) and ``intensity`` (float64), ``stops`` rows of ``stops`` and ``keyposes`` rows
+of ``keyposes`` (float64, seconds). ``first``, ``second`` (int64) and ``distance`` (float32) are the close pairs of
+graph frames, counted over all clips; ``indptr``, ``targets`` (int64) and ``costs`` (float32) the joins made of them, as
+of ``graph.MotionGraph``.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from onbeat.errors import LibraryError
 from onbeat.motion.skeleton import Skeleton
 
 FORMAT = "onbeat library"
-VERSION = 1
+VERSION = 2
 
 
 class Clips(msgspec.Struct, forbid_unknown_fields=True):
@@ -34,7 +35,7 @@ class Clips(msgspec.Struct, forbid_unknown_fields=True):
     sha256 : of the file's content.
     body, seconds, notes : of the recording, as of ``clips.Read``.
     fps : of the stored motion.
-    frames, poses, stops : how many rows it has in the arrays.
+    frames, poses, stops, keyposes : how many rows it has in the arrays.
     """
 
     name: str
@@ -49,6 +50,7 @@ class Clips(msgspec.Struct, forbid_unknown_fields=True):
     frames: int
     poses: int
     stops: int
+    keyposes: int
 
 
 class Body(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
@@ -135,7 +137,7 @@ def method_digest() -> str:
     """A digest of the code that reads motion and makes clips and joins: what other code made is not mixed with it."""
     root = Path(__file__).parents[1]
     total = hashlib.sha256(version("onbeat").encode())
-    for room in ("formats", "motion", "moves"):
+    for room in ("formats", "motion", "keyposes", "moves"):
         for file in sorted((root / room).glob("*.py")):
             total.update(file.read_bytes())
     return total.hexdigest()[:16]

@@ -34,6 +34,7 @@ _NAMES = (
     "rotations",
     "root_positions",
     "stops",
+    "keyposes",
     "intensity",
     "poses",
     "first",
@@ -109,6 +110,7 @@ def _check(folder: Path, found: Manifest, arrays: Arrays) -> None:
         "rotations": ("f8", (frames, joints, 4)),
         "root_positions": ("f8", (frames, 3)),
         "stops": ("f8", (sum(clip.stops for clip in clips),)),
+        "keyposes": ("f8", (sum(clip.keyposes for clip in clips),)),
         "intensity": ("f8", (poses,)),
         "poses": ("f4", (poses, arrays["poses"].shape[-1])),
         "first": ("i8", (pairs,)),
@@ -159,15 +161,15 @@ def stored_clips(found: Manifest, arrays: Arrays) -> list[Clip]:
 def _clips(found: Manifest, arrays: Arrays) -> list[Clip]:
     skeleton = found.skeleton.skeleton()
     clips: list[Clip] = []
-    frame = pose = stop = 0
+    frame = pose = stop = key = 0
     for row in found.clips:
         moves, steps = slice(frame, frame + row.frames), slice(pose, pose + row.poses)
         motion = Motion(skeleton, arrays["rotations"][moves], arrays["root_positions"][moves], row.fps, row.name)
         stops = arrays["stops"][stop : stop + row.stops]
-        clips.append(
-            Clip(motion, row.name, row.source, row.mirrored, stops, arrays["intensity"][steps], arrays["poses"][steps])
-        )
-        frame, pose, stop = frame + row.frames, pose + row.poses, stop + row.stops
+        keyposes = arrays["keyposes"][key : key + row.keyposes]
+        intensity, poses = arrays["intensity"][steps], arrays["poses"][steps]
+        clips.append(Clip(motion, row.name, row.source, row.mirrored, stops, intensity, poses, keyposes))
+        frame, pose, stop, key = frame + row.frames, pose + row.poses, stop + row.stops, key + row.keyposes
     return clips
 
 
@@ -178,6 +180,7 @@ def arrays_of(clips: Sequence[Clip], pairs: Pairs, graph: MotionGraph) -> dict[s
         "rotations": np.concatenate([clip.motion.rotations for clip in clips]),
         "root_positions": np.concatenate([clip.motion.root_positions for clip in clips]),
         "stops": np.concatenate([clip.stops for clip in clips]).astype(np.float64),
+        "keyposes": np.concatenate([clip.keyposes for clip in clips]).astype(np.float64),
         "intensity": np.concatenate([clip.intensity for clip in clips]),
         "poses": np.concatenate([clip.poses for clip in clips]),
         "first": first,

@@ -133,13 +133,13 @@ def follow(
     tall = float(np.percentile(high[:, 2], 95)) - ground
     targets = np.column_stack((middle, np.full(len(motion), ground + 0.5 * tall)))
     still = CameraPath(targets, np.zeros(len(motion)), _front(motion) + side, elevation, shift=shift)
-    needed = _needed(motion.positions, figure, still, size[0] / size[1]) * margin
+    needed = distance_needed(motion.positions, figure, still, size[0] / size[1]) * margin
     window = round(2.5 * sigma)
     widest = maximum_filter1d(needed, 2 * window + 1, mode="nearest")
     return replace(still, distances=gaussian_filter1d(widest, sigma, mode="nearest", radius=window))
 
 
-def _needed(positions: Positions, figure: Figure, path: CameraPath, aspect: float) -> Array:
+def distance_needed(positions: Positions, figure: Figure, path: CameraPath, aspect: float) -> Array:
     """(F,) metres: the distance at which the figure just fits the picture, from a few hundred frames at a time."""
     towards = _direction(path.azimuth, path.elevation)
     right = np.array([-np.sin(path.azimuth), np.cos(path.azimuth), 0.0])

@@ -8,8 +8,9 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from onbeat._shapes import Array, Float32
+from onbeat._shapes import Array, Float32, Ints
 from onbeat.errors import BodyError, OnbeatError
+from onbeat.keyposes.extract import Keyposes
 from onbeat.motion import Body, Motion
 from onbeat.motion.body import body_frames, facing
 from onbeat.motion.features import hand_features, intensity_component
@@ -20,6 +21,7 @@ from onbeat.viewer.contract import (
     AudioData,
     CapsuleData,
     CurveData,
+    KeyposeData,
     MetricData,
     MoveData,
     PageData,
@@ -51,12 +53,19 @@ def page_data(
     song: Song | None = None,
     document: Mapping[str, Any] | None = None,
     audio: tuple[Float32, int] | None = None,
+    keyposes: Keyposes | None = None,
+    numbers: Ints | None = None,
+    shape: list[Capsule] | None = None,
 ) -> PageData:
-    """What the page shows, as its contract has it; arguments and errors as :func:`onbeat.viewer.page.render_page`."""
+    """What the page shows, as its contract has it; arguments and errors as :func:`onbeat.viewer.page.render_page`.
+
+    ``numbers`` are those of the keyposes where they are not 1, 2, 3, …; ``shape`` is what hangs on the joints where it
+    is not a body.
+    """
     dance = _document(document)
     moves = sorted(dance.moves, key=lambda move: move.at_s)
-    body = _body(motion)
-    shape = capsules(motion.skeleton, body)
+    body = _body(motion) if shape is None else None
+    shape = capsules(motion.skeleton, body) if shape is None else shape
     every = int(np.ceil(motion.fps / MAX_FPS - 1e-9))
     spine = _spine(body)
     joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
@@ -78,11 +87,13 @@ def page_data(
         floor=ground_height(Figure.from_capsules(shape), motion),
         audio=encoded,
         waveform=waveform,
-        beats=_rounded(dance.beats if dance.beats is not None else (song.beats.tolist() if song else [])),
+        beats=_beats(dance, song, keyposes),
         downbeats=_rounded(song.downbeats.tolist() if song else []),
         stops=_rounded(dance.stops),
         moves=moves,
         joins=_rounded([move.at_s for move in moves[1:]]),
+        keyposes=_keyposes(keyposes, motion, body, numbers),
+        energy=None,
         music_intensity=_music_intensity(motion, song),
         motion_intensity=_motion_intensity(motion, body),
         metrics=_metrics(dance.metrics),
@@ -135,6 +146,25 @@ def _facing(motion: Motion, body: Body | None) -> float:
     if body is None:
         return np.pi
     return float(facing(body_frames(motion[:1], body)[0])[0])
+
+
+def _beats(dance: DanceDocument, song: Song | None, keyposes: Keyposes | None) -> list[float]:
+    """The beats danced to, else those heard, else those the keyposes were found by."""
+    if dance.beats is not None:
+        return _rounded(dance.beats)
+    if song is not None:
+        return _rounded(song.beats.tolist())
+    return [] if keyposes is None else _rounded(keyposes.song_beats.tolist())
+
+
+def _keyposes(found: Keyposes | None, motion: Motion, body: Body | None, numbers: Ints | None) -> list[KeyposeData]:
+    if found is None or not len(found):
+        return []
+    numbers = np.arange(1, len(found) + 1) if numbers is None else numbers
+    yaws = np.zeros(len(found)) if body is None else facing(body_frames(motion.at(found.times), body)[0])
+    times = np.minimum(found.times, motion.duration).round(4)
+    columns = (times.tolist(), numbers.tolist(), (found.beats + 1).tolist(), found.sources, yaws.round(3).tolist())
+    return [KeyposeData(*row) for row in zip(*columns, strict=True)]
 
 
 def _curve_times(motion: Motion) -> Array:

@@ -14,7 +14,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Positions
 
-VERSION = 1
+VERSION = 2
 STEPS = 65535
 """Largest quantised coordinate."""
 
@@ -64,6 +64,25 @@ class MoveData(msgspec.Struct, frozen=True):
     at_s: float
 
 
+class KeyposeData(msgspec.Struct, frozen=True):
+    """A keypose at ``time``: its number and beat, both from 1, what rests there, and the yaw that the body faces."""
+
+    time: float
+    number: int
+    beat: int
+    source: str
+    facing: float
+
+
+class EnergyData(msgspec.Struct, frozen=True):
+    """Global and local energy over time, 1 being the highest of both, and when candidates for keyposes lie on them."""
+
+    world: CurveData
+    local: CurveData
+    world_candidates: list[float]
+    local_candidates: list[float]
+
+
 class MetricData(msgspec.Struct, frozen=True):
     """A figure of the dance, in words for people."""
 
@@ -98,12 +117,14 @@ class PageData(msgspec.Struct, frozen=True):
     stops: list[float]
     moves: list[MoveData]
     joins: list[float]
+    keyposes: list[KeyposeData]
+    energy: EnergyData | None
     music_intensity: CurveData
     motion_intensity: CurveData
     metrics: list[MetricData]
 
 
-STRUCTS = (CapsuleData, PathData, CurveData, AudioData, MoveData, MetricData, PageData)
+STRUCTS = (CapsuleData, PathData, CurveData, AudioData, MoveData, KeyposeData, EnergyData, MetricData, PageData)
 """All classes of the contract, parts before the whole."""
 
 

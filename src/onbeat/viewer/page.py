@@ -12,9 +12,11 @@ import msgspec
 from onbeat._shapes import Float32
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
+from onbeat.keyposes.extract import Keyposes
 from onbeat.motion import Motion
 from onbeat.music.song import Song
 from onbeat.viewer.content import page_data
+from onbeat.viewer.contract import PageData
 
 _SLOT = b"<!--onbeat-data-->"
 
@@ -25,9 +27,10 @@ def write_page(
     song: Song | None = None,
     document: Mapping[str, Any] | None = None,
     audio: tuple[Float32, int] | None = None,
+    keyposes: Keyposes | None = None,
 ) -> None:
     """Write the page to a file, whole or not at all; arguments and errors as :func:`render_page`."""
-    write_atomically(path, render_page(motion, song, document, audio))
+    write_atomically(path, render_page(motion, song, document, audio, keyposes))
 
 
 def render_page(
@@ -35,6 +38,7 @@ def render_page(
     song: Song | None = None,
     document: Mapping[str, Any] | None = None,
     audio: tuple[Float32, int] | None = None,
+    keyposes: Keyposes | None = None,
 ) -> bytes:
     """The page as bytes of HTML; the same bytes for the same input.
 
@@ -44,13 +48,19 @@ def render_page(
     song : what is heard in the song: beats, downbeats, intensity. None for a motion without music.
     document : ``dance.json`` as a mapping: stops, moves, metrics.
     audio : samples (N, channels) in -1…1 and their rate in Hz; None for a silent page.
+    keyposes : those of the motion; None for a page without them.
 
     Raises
     ------
     OnbeatError
         If the document has other fields than ``dance.json``, or the samples are not a sound.
     """
-    data = msgspec.json.encode(page_data(motion, song, document, audio))
+    return filled(page_data(motion, song, document, audio, keyposes))
+
+
+def filled(page: PageData) -> bytes:
+    """The page that shows this, as bytes of HTML."""
+    data = msgspec.json.encode(page)
     # Inside <script> only "<" can end or confuse the element, whatever names hold: JSON may write it as \u003c.
     data = data.replace(b"<", b"\\u003c")
     return _shell().replace(_SLOT, b'<script type="application/json" id="data">' + data + b"</script>", 1)

@@ -1,0 +1,324 @@
+"""``onbeat keyposes``: find the keyposes of a dance, learn its thresholds, measure how well they are found."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import cyclopts
+import msgspec
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from onbeat.cli.keypose_input import NO_BEATS, BeatFlags, read_dance, read_example
+from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.errors import OnbeatError
+from onbeat.files import write_atomically
+from onbeat.keyposes.candidates import Thresholds
+from onbeat.keyposes.document import keyposes_document
+from onbeat.keyposes.evaluate import compare
+from onbeat.keyposes.extract import DEFAULT, Keyposes, Options, find_keyposes
+from onbeat.keyposes.matching import TOLERANCE, Score
+from onbeat.keyposes.thresholds import Example, learn, sweep
+from onbeat.motion import Markers, Motion
+
+keyposes_app = cyclopts.App(
+    name="keyposes", help="Find the keyposes of a dance: the poses in which it rests on the beat."
+)
+VERSION = 1
+
+
+@cyclopts.Parameter(name="*")
+@dataclass(frozen=True)
+class EnergyFlags:
+    """How keyposes are looked for.
+
+    Parameters
+    ----------
+    energy
+        ``rms`` (the default), ``sum`` or ``paper``, as printed in 2009.
+    order
+        ``global-local`` (the default), ``local-global``, ``global`` or ``local``: whose rest counts first.
+    weights
+        ``uniform`` (the default) or ``mass``.
+    """
+
+    energy: str = "rms"
+    order: str = "global-local"
+    weights: str = "uniform"
+
+    def options(self, thresholds: Thresholds = DEFAULT) -> Options:
+        """As the methods take them."""
+        return Options(self.energy, self.order, self.weights, thresholds)
+
+
+USUAL = EnergyFlags()
+"""None was given."""
+
+
+@keyposes_app.default
+def find_command(
+    motion: Path,
+    *,
+    flags: BeatFlags = NO_BEATS,
+    output: Annotated[Path | None, cyclopts.Parameter(name=["-o", "--output"])] = None,
+    method: str = "energy",
+    looks: EnergyFlags = USUAL,
+    t1: float | None = None,
+    t2: float | None = None,
+    thresholds: Path | None = None,
+    cycle: int | None = None,
+    json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
+) -> None:
+    """Find the keyposes of a motion.
+
+    Example: ``onbeat keyposes dance.bvh --music song.mp3 -o dance_keyposes``
+
+    Parameters
+    ----------
+    motion
+        Any motion file, of a body or of markers.
+    flags
+        Where the beats come from.
+    output
+        A folder for ``keyposes.json``, ``keyposes.csv``, the sheet as ``keyposes.png``, ``.svg`` and
+        ``.pdf``, and the page ``keyposes.html``.
+    method
+        ``energy`` (the default), ``paper2009``, ``shiratori2004`` or ``hands``.
+    looks
+        How keyposes are looked for.
+    t1
+        Energy under which a rest is a keypose, in units of the mean energy.
+    t2
+        Rise of the energy on both sides of a rest that makes it a keypose, in the same units.
+    thresholds
+        A file that ``onbeat keyposes learn`` wrote, instead.
+    cycle
+        Beats after which the dance repeats: the sheet puts the cycles under each other.
+    json
+        Print the document on stdout instead of a table.
+    """
+    if cycle is not None and cycle < 1:
+        raise OnbeatError(f"a cycle of {cycle} beats cannot be; give 1 or more")
+    chosen = _thresholds(t1, t2, thresholds)
+    with warnings_as_lines():
+        source, beats, downbeats = read_dance(motion, flags)
+        found = find_keyposes(source, beats, method, looks.options(chosen))
+    document = keyposes_document(found, motion.stem)
+    if output:
+        _write(output, found, source, document.to_json(), motion.stem, downbeats, cycle)
+    if json:
+        sys.stdout.write(document.to_json().decode())
+    else:
+        _print_found(found, motion.name)
+
+
+def _thresholds(t1: float | None, t2: float | None, file: Path | None) -> Thresholds:
+    """What is told, over what a file says, over the default."""
+    base = DEFAULT
+    if file is not None:
+        try:
+            base = msgspec.json.decode(file.read_bytes(), type=_Learned).thresholds
+        except OSError as error:
+            raise OnbeatError(
+                f"cannot read {file}: {error.strerror}; give what `onbeat keyposes learn -o` wrote"
+            ) from None
+        except msgspec.MsgspecError as error:
+            raise OnbeatError(
+                f"{file} holds no thresholds: {error}; give what `onbeat keyposes learn -o` wrote"
+            ) from None
+    chosen = Thresholds(base.t1 if t1 is None else t1, base.t2 if t2 is None else t2)
+    if not all(np.isfinite(value) and value >= 0.0 for value in chosen):
+        raise OnbeatError(
+            f"thresholds {chosen.t1:g} and {chosen.t2:g} cannot be; give 0 or more, in units of the mean energy"
+        )
+    return chosen
+
+
+class _Learned(msgspec.Struct):
+    """``thresholds.json``."""
+
+    version: int
+    thresholds: Thresholds
+    held_out_f: float | None = None
+
+
+def _write(
+    folder: Path, found: Keyposes, source: Motion | Markers, document: bytes, title: str, downbeats: np.ndarray,
+    cycle: int | None,
+) -> None:  # fmt: skip
+    from onbeat.viewer.keypose_page import write_keypose_page
+    from onbeat.viewer.keypose_poses import fitted
+    from onbeat.viewer.keypose_sheet import keypose_pages, save_pages
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OnbeatError(f"cannot make the folder {folder}: {error.strerror}; give another one to -o") from None
+    write_atomically(folder / "keyposes.json", document)
+    times = "".join(f"{time:.6f}\n" for time in found.times)
+    write_atomically(folder / "keyposes.csv", f"# seconds\n{times}".encode())
+    shown = fitted(source)
+    pages = keypose_pages(found, shown, title=title, downbeats=downbeats, cycle=cycle)
+    for name in ("keyposes.png", "keyposes.svg", "keyposes.pdf"):
+        save_pages(pages, folder / name)
+    write_keypose_page(folder / "keyposes.html", found, shown, title=title, downbeats=downbeats, cycle=cycle)
+
+
+def _print_found(found: Keyposes, name: str) -> None:
+    table = Table(box=None, pad_edge=False)
+    for head in ("", "second", "beat", "off the beat", "rests"):
+        table.add_column(head, justify="right" if head != "rests" else "left")
+    for number, (time, beat, source) in enumerate(zip(found.times, found.beats, found.sources, strict=True), 1):
+        off = 1000.0 * (time - found.song_beats[beat])
+        table.add_row(str(number), f"{time:.3f}", str(beat + 1), f"{off:+.0f} ms", source)
+    screen = Console()
+    screen.print(Text(f"{name}: {len(found)} keyposes on {len(found.song_beats)} beats, by {found.method}"))
+    if len(found):
+        screen.print(table)
+    else:
+        screen.print(Text("the body never rests near a beat: try a higher --t1, or check --song-at"))
+
+
+def _examples(paths: list[Path], looks: EnergyFlags, song_at: float, fps: float | None) -> list[Example]:
+    with warnings_as_lines(), Stages() as stages:
+        read: list[Example] = []
+        for done, path in enumerate(paths):
+            stages("reading", done / len(paths), path.name)
+            read.append(read_example(path, looks.options(), song_at, fps))
+    return read
+
+
+def _score(score: Score) -> str:
+    return f"precision {score.precision:.2f}, recall {score.recall:.2f}, F {score.f:.2f}"
+
+
+Motions = Annotated[list[Path], cyclopts.Parameter(negative=(), json_list=False)]
+
+
+@keyposes_app.command(name="learn")
+def learn_command(
+    examples: Motions,
+    /,
+    *,
+    output: Annotated[Path | None, cyclopts.Parameter(name=["-o", "--output"])] = None,
+    looks: EnergyFlags = USUAL,
+    tolerance: float = TOLERANCE,
+    song_at: float = 0.0,
+    fps: float | None = None,
+) -> None:
+    """Learn the thresholds from dances whose keyposes are marked.
+
+    Example: ``onbeat keyposes learn folk_1.bvh folk_2.bvh -o thresholds.json``
+
+    Parameters
+    ----------
+    examples
+        Motion files; beside each ``NAME.bvh`` a file ``NAME.keyposes.csv`` with the seconds of its keyposes, one a
+        line, and ``NAME.beats`` or a song ``NAME.wav``.
+    output
+        Where to write the thresholds as JSON, for ``onbeat keyposes MOTION --thresholds``.
+    looks
+        How keyposes are looked for.
+    tolerance
+        Seconds by which a keypose may be off.
+    song_at
+        Second of the motions at which their songs begin.
+    fps
+        Frames a second of motion files that store none.
+    """
+    learned = learn(_examples(examples, looks, song_at, fps), tolerance)
+    (low1, high1), (low2, high2) = learned.plateau
+    screen = Console()
+    table = Table(box=None, pad_edge=False, show_header=False)
+    rows = (
+        ("T1", f"{learned.thresholds.t1:g} of the mean energy; as good from {low1:g} to {high1:g}"),
+        ("T2", f"{learned.thresholds.t2:g} of the mean energy; as good from {low2:g} to {high2:g}"),
+        ("held out", _score(learned.held_out)),
+    )
+    for name, value in rows:
+        table.add_row(Text(name, "dim"), Text(value))
+    screen.print(table)
+    if output:
+        t1, t2 = learned.thresholds
+        document = {
+            "version": VERSION,
+            "thresholds": [t1, t2],
+            "held_out_f": round(learned.held_out.f, 6),
+            "plateau": {"t1": [low1, high1], "t2": [low2, high2]},
+            "examples": len(examples),
+        }
+        write_atomically(output, msgspec.json.format(msgspec.json.encode(document), indent=1) + b"\n")
+
+
+@keyposes_app.command(name="evaluate")
+def evaluate_command(
+    examples: Motions,
+    /,
+    *,
+    tolerance: float = TOLERANCE,
+    thresholds: Path | None = None,
+    plot: Path | None = None,
+    song_at: float = 0.0,
+    fps: float | None = None,
+    seed: int = 0,
+    json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
+) -> None:
+    """Measure how well every method finds marked keyposes, and how much that depends on the thresholds.
+
+    Example: ``onbeat keyposes evaluate folk_1.bvh folk_2.bvh --tolerance 0.1 --plot sweep.png``
+
+    Parameters
+    ----------
+    examples
+        Motion files with their keyposes and beats beside them, as for ``onbeat keyposes learn``.
+    tolerance
+        Seconds by which a keypose may be off.
+    thresholds
+        A file that ``onbeat keyposes learn`` wrote.
+    plot
+        Draw precision and recall over T1 and T2 to this PNG, SVG or PDF file.
+    song_at
+        Second of the motions at which their songs begin.
+    fps
+        Frames a second of motion files that store none.
+    seed
+        Of the random phases of the chance column.
+    json
+        Print the scores as JSON on stdout instead of tables.
+    """
+    chosen = _thresholds(None, None, thresholds)
+    read = _examples(examples, USUAL, song_at, fps)
+    rows = compare(read, np.random.default_rng(seed), tolerance, chosen)
+    swept = sweep(read, tolerance=tolerance)
+    if plot:
+        from onbeat.viewer.threshold_figure import write_threshold_figure
+
+        write_threshold_figure(plot, swept, chosen)
+    if json:
+        scores: dict[str, Any] = {
+            row.name: {**{k: round(v, 4) for k, v in row.score._asdict().items()}, "chance": round(row.chance, 4)}
+            for row in rows
+        }
+        document = {"version": VERSION, "tolerance": tolerance, "thresholds": list(chosen), "scores": scores}
+        sys.stdout.write(msgspec.json.format(msgspec.json.encode(document), indent=1).decode() + "\n")
+        return
+    table = Table(box=None, pad_edge=False)
+    for head in (f"within {1000 * tolerance:.0f} ms", "precision", "recall", "F", "by chance"):
+        table.add_column(head, justify="left" if head.startswith("within") else "right")
+    for row in rows:
+        table.add_row(Text(row.name), *(f"{value:.2f}" for value in (*row.score, row.chance)))
+    screen = Console()
+    screen.print(table)
+    (low1, high1), (low2, high2) = swept.plateau()
+    best = swept.best()
+    screen.print(
+        Text(
+            f"highest F over both thresholds {swept.f.max():.2f}; about as high with T1 {low1:g}…{high1:g} "
+            f"(at T2 {best.t2:g}) and T2 {low2:g}…{high2:g} (at T1 {best.t1:g})"
+        )
+    )

@@ -1,0 +1,166 @@
+"""``onbeat lowdim``: dances in a few dimensions, by their keyposes and by uniform sampling, and which people prefer."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import cyclopts
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+from threadpoolctl import threadpool_limits
+
+from onbeat._shapes import Times
+from onbeat.cli.keypose_input import MARKS, NO_BEATS, BeatFlags, read_dance
+from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.errors import MetricError
+from onbeat.files import make_folder, write_atomically
+from onbeat.formats import read_motion, write_motion
+from onbeat.formats.read import fitted
+from onbeat.keyposes.extract import find_keyposes
+from onbeat.keyposes.judging import SPACES, AnswersDocument, trials, verdict_of
+from onbeat.keyposes.lowdim import LowDimensional, low_dimensional
+from onbeat.keyposes.lowdim_document import LowdimDocument, document
+from onbeat.motion import Markers, Motion
+from onbeat.music.beat_files import read_beats
+
+Files = Annotated[list[Path] | None, cyclopts.Parameter(negative=(), json_list=False)]
+
+
+def lowdim_command(
+    motions: Files = None,
+    /,
+    *,
+    dims: int = 3,
+    rho: float | None = None,
+    in_cycle: int | None = None,
+    flags: BeatFlags = NO_BEATS,
+    output: Annotated[Path | None, cyclopts.Parameter(name=["-o", "--output"])] = None,
+    judged: Annotated[list[Path] | None, cyclopts.Parameter(negative=(), consume_multiple=True)] = None,
+    seed: int = 0,
+    json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
+) -> None:
+    """Rebuild dances in a few dimensions, those of their keyposes, and compare with uniform sampling.
+
+    Parameters
+    ----------
+    motions
+        Motion files of the same dance, one of each person. Where ``NAME.keyposes.csv`` (a second a line) lies beside
+        ``NAME.bvh`` these are its keyposes; else they are found.
+    dims
+        Dimensions of the motions that are written.
+    rho
+        As many dimensions as hold this share of the keyposes' variance, instead.
+    in_cycle
+        Keyposes in a cycle of the dance: the cycle in the middle teaches, the others test. Without it, half of them do.
+    flags
+        Where the beats come from.
+    output
+        A folder for the motions in both spaces, ``lowdim.json``, the figures, and the page ``judge.html`` on which
+        people choose.
+    judged
+        Answers that were saved from ``judge.html``: says how people chose, and whether that is chance.
+    seed
+        Draws the order of the trials on the page, and which is A.
+    json
+        Print ``lowdim.json`` on stdout instead of a table.
+    """
+    if judged:
+        if motions:
+            raise MetricError(f"--judged reads answers alone; leave out {motions[0]}, or --judged")
+        _print_verdict(judged)
+        return
+    if not motions:
+        raise MetricError("no motions; give files of one dance, one of each person, or --judged with saved answers")
+    with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
+        read = [_read(path, flags, stages, done / len(motions)) for done, path in enumerate(motions)]
+        stages("spaces", 0.0)
+        found = low_dimensional(
+            [one[0] for one in read], [one[1] for one in read], _names(motions), dims=dims, rho=rho, cycle=in_cycle
+        )
+        told = document(found)
+        if output is not None:
+            _write(make_folder(output), found, told, stages, seed)
+    if json:
+        sys.stdout.write(told.to_json().decode())
+    else:
+        _print(found, told)
+
+
+def _names(paths: list[Path]) -> list[str]:
+    """A name for each motion: of its file, with its folder's where several have it."""
+    stems = [path.stem for path in paths]
+    return [path.stem if stems.count(path.stem) == 1 else f"{path.resolve().parent.name}_{path.stem}" for path in paths]
+
+
+def _read(path: Path, flags: BeatFlags, stages: Stages, share: float) -> tuple[Motion, Times]:
+    """A motion and its keyposes, marked or found."""
+    stages("reading", share, path.name)
+    marks = path.with_name(path.stem + MARKS)
+    if marks.is_file():
+        return read_motion(path, flags.fps), read_beats(marks).times
+    source, beats, _ = read_dance(path, flags)
+    keyposes = find_keyposes(source, beats).times
+    return fitted(source, path).motion if isinstance(source, Markers) else source, keyposes
+
+
+def _write(folder: Path, found: LowDimensional, told: LowdimDocument, stages: Stages, seed: int) -> None:
+    from onbeat.viewer.judge_page import write_judge_page
+    from onbeat.viewer.lowdim_figures import write_lowdim_figures
+    from onbeat.viewer.lowdim_pictures import write_lowdim_pictures
+
+    count = len(found.motions) * len(SPACES) * found.dims
+    done = 0
+    for which in range(len(found.motions)):
+        for space in SPACES:
+            for dims in range(1, found.dims + 1):
+                motion = found.motion(which, space, dims)
+                stages("motions", done / count, motion.name)
+                write_motion(motion, folder / f"{motion.name}.bvh")
+                done += 1
+    stages("figures", 0.0)
+    write_atomically(folder / "lowdim.json", told.to_json())
+    write_lowdim_figures(folder, found)
+    stages("figures", 0.5, "pictures")
+    write_lowdim_pictures(folder, found)
+    people = [one.person for one in found.taught]
+    write_judge_page(folder / "judge.html", found, trials(people, np.random.default_rng(seed)))
+
+
+def _print(found: LowDimensional, told: LowdimDocument) -> None:
+    table = Table("", "keyposes", "uniform", "ratio", box=None, pad_edge=False)
+    for column in table.columns[1:]:
+        column.justify = "right"
+    at = found.dims - 1
+    shares = [space.cumulative[at] for space in told.spaces]
+    table.add_row("variance of its own poses", f"{shares[0]:.1%}", f"{shares[1]:.1%}", "")
+    for row in told.errors:
+        ours, theirs = 1000 * row.keyposes[at], 1000 * row.uniform[at]
+        unseen = {"all": "all frames", "rest": "frames at rest", "keyposes": "keyposes"}[row.of]
+        title = f"error, unseen {row.unseen}: {unseen}"
+        table.add_row(title, f"{ours:.1f} mm", f"{theirs:.1f} mm", f"{ours / theirs:.2f}" if theirs > 0 else "")
+    kinds = {"through": "bone through bone", "beyond": "joint beyond its range", "stretched": "bone length off by 10 %"}
+    for kind, title in kinds.items():
+        table.add_row(title, *(f"{getattr(space, kind):.1%}" for space in told.spaces), "")
+    most = len(found.spaces["keyposes"])
+    screen = Console()
+    screen.print(Text(f"{len(found.motions)} people, {told.poses} poses, {found.dims} of {most} dimensions"))
+    screen.print(table)
+
+
+def _print_verdict(paths: list[Path]) -> None:
+    documents: list[AnswersDocument] = []
+    for path in paths:
+        try:
+            documents.append(AnswersDocument.from_json(path.read_bytes(), str(path)))
+        except OSError as error:
+            raise MetricError(f"cannot read {path}: {error.strerror or error}; save it from judge.html") from None
+    found = verdict_of(documents)
+    share = found.chosen / found.trials
+    print(  # noqa: T201
+        f"{found.chosen} of {found.trials} chose keyposes ({share:.0%}; 95 % of such studies lie in "
+        f"{found.low:.0%} to {found.high:.0%}); by chance p = {found.p:.2g} (exact binomial test, two-sided)"
+    )

@@ -1,0 +1,1 @@
+"""Keyposes: found, learned, used."""

@@ -1,0 +1,120 @@
+"""``judge.html``: people say which of two motions is more like the original (keyposes 2009, Sec. 4.3, Fig. 12)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from importlib import resources
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from onbeat._shapes import Positions
+from onbeat.errors import MetricError, OnbeatError
+from onbeat.files import write_atomically
+from onbeat.keyposes.judging import SPACES, VERSION, Trial
+from onbeat.keyposes.lowdim import LowDimensional
+from onbeat.keyposes.playable import bone_ends
+from onbeat.motion import Motion
+from onbeat.motion import rotations as rot
+from onbeat.motion.body import facing
+from onbeat.viewer.figure import Figure, ground_height
+
+FPS = 30.0
+"""Frames a second on the page, which draws between them."""
+LONGEST = 15.0
+"""Seconds of each motion, its first cycle or the beginning of that."""
+_SLOT = b"<!--onbeat-data-->"
+_WIDTHS = {
+    "hip": 170.0, "knee": 110.0, "ankle": 75.0, "collar": 120.0, "shoulder": 120.0, "elbow": 80.0, "wrist": 62.0,
+    "hand": 58.0, "head": 90.0, "crown": 180.0,
+}  # fmt: skip
+_TRUNK, _THIN = 190.0, 60.0
+_OF_TRUNK = ("hip", "collar", "shoulder")
+_COLOURS = {"left": "#2f6f9f", "right": "#c46a2b", "": "#4a5666"}
+
+
+def write_judge_page(path: str | os.PathLike[str], found: LowDimensional, trials: Sequence[Trial]) -> None:
+    """Write the page: one file that opens without a server or a network.
+
+    Parameters
+    ----------
+    path : the file.
+    found : the motions, in both spaces.
+    trials : what is asked, by the names of the people; see :func:`onbeat.keyposes.judging.trials`.
+
+    Raises
+    ------
+    MetricError
+        If there is no trial, or one of a motion that is not there.
+    """
+    people = [one.person for one in found.taught]
+    if not trials or any(trial.motion not in people for trial in trials):
+        raise MetricError(f"trials of {sorted({trial.motion for trial in trials})} cannot be asked: there are {people}")
+    shown = [people.index(name) for name in dict.fromkeys(trial.motion for trial in trials)]
+    data = msgspec.json.encode(_data(found, shown, trials)).replace(b"<", b"\\u003c")
+    page = _shell().replace(_SLOT, b'<script type="application/json" id="data">' + data + b"</script>", 1)
+    write_atomically(path, page)
+
+
+def _shell() -> bytes:
+    file = resources.files("onbeat.viewer") / "static" / "judge.html"
+    try:
+        return file.read_bytes()
+    except OSError:
+        raise OnbeatError(f"{file} is missing; install onbeat again") from None
+
+
+def _data(found: LowDimensional, shown: Sequence[int], trials: Sequence[Trial]) -> dict[str, Any]:
+    first = found.vectors[shown[0]]
+    return {
+        "version": VERSION,
+        "dims": found.dims,
+        "fps": FPS,
+        "points": len(first.points),
+        "trunk": _COLOURS[""],
+        "bones": _bones(first.points, bone_ends(found.motions[shown[0]].skeleton, first.joints)),
+        "motions": {found.taught[which].person: _motion(found, which) for which in shown},
+        "trials": [trial._asdict() for trial in trials],
+    }
+
+
+def _bones(points: tuple[str, ...], ends: np.ndarray) -> list[list[Any]]:
+    """Points, width in millimetres and colour of each bone; each side has its own colour."""
+    drawn: list[list[Any]] = []
+    for first, last in ends.tolist():
+        side, _, part = points[last].rpartition("_")
+        width = _WIDTHS.get(part, _THIN if side else _TRUNK)
+        drawn.append([first, last, width, _COLOURS.get("" if part in _OF_TRUNK else side, _COLOURS[""])])
+    return drawn
+
+
+def _motion(found: LowDimensional, which: int) -> dict[str, Any]:
+    """The three paths of a motion's first cycle, seen from the front, and the box they keep in, millimetres."""
+    one = found.taught[which]
+    end = min(one.end, one.start + LONGEST, one.vectors.duration)
+    times = one.start + np.arange(max(2, int((end - one.start) * FPS) + 1)) / FPS
+    original = found.motions[which]
+    turn = rot.yaw(-_mean_facing(one.vectors.frames))
+    ground = ground_height(Figure.of(original.skeleton), original)
+    motions = {"original": original, **{space: found.motion(which, space) for space in SPACES}}
+    # The view goes sideways with the original's hips, whose path all three have.
+    middle = rot.rotate(turn, original.at(times).positions[:, one.vectors.joints[:1]])
+    middle[..., 1:] = np.median(middle[..., 1]), ground
+    paths = {name: _seen(m, one.vectors.joints, times, turn, middle) for name, m in motions.items()}
+    every = np.concatenate(list(paths.values())).reshape(-1, 3)
+    low, high = every[:, :2].min(axis=0), every[:, :2].max(axis=0)
+    box = [int(low[0]) - 120, int(high[0]) + 120, min(int(low[1]), 0) - 60, int(high[1]) + 120]
+    return {"frames": len(times), "box": box, "paths": {name: path.ravel().tolist() for name, path in paths.items()}}
+
+
+def _mean_facing(frames: np.ndarray) -> float:
+    mean = np.exp(1j * facing(frames)).mean()
+    return float(np.angle(mean)) if abs(mean) > 1e-6 else 0.0
+
+
+def _seen(motion: Motion, joints: np.ndarray, times: np.ndarray, turn: np.ndarray, middle: Positions) -> np.ndarray:
+    """(T, N, 3) whole millimetres: x across as the viewer has it, y up, z towards the viewer, who stands in front."""
+    places = rot.rotate(turn, motion.at(times).positions[:, joints]) - middle
+    return np.rint(1000 * np.stack((-places[..., 0], places[..., 2], places[..., 1]), axis=-1)).astype(np.int64)

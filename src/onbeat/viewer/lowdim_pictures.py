@@ -1,0 +1,115 @@
+"""Pictures of a dancer in few dimensions: the worst posture beside the original, and one moment by dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from onbeat._shapes import Array
+from onbeat.keyposes.lowdim import LowDimensional
+from onbeat.motion import Motion
+from onbeat.viewer.camera import Size, follow
+from onbeat.viewer.figure import Figure, ground_height
+from onbeat.viewer.lettering import write_text
+from onbeat.viewer.raster import render_frame
+from onbeat.viewer.sheet import write_png
+from onbeat.viewer.stage import Stage
+
+SIDE = 1.35
+"""Radians off the front from where the second row of pictures is taken."""
+
+
+def worst_posture(found: LowDimensional, ours: str = "keyposes", theirs: str = "uniform") -> tuple[int, int] | None:
+    """Motion and frame that are most unnatural in one space and not in the other; None where there is none."""
+    best, worst = 0.0, None
+    for which in range(len(found.motions)):
+        mine, other = (found.unnatural(which, space, played=True) for space in (ours, theirs))
+        amount = np.where(mine.postures, 0.0, _amount(other.through, other.beyond))
+        frame = int(amount.argmax())
+        if amount[frame] > best:
+            best, worst = float(amount[frame]), (which, frame)
+    return worst
+
+
+def most_different(found: LowDimensional) -> tuple[int, int]:
+    """Motion and frame at which uniform sampling is further off the original than keyposes are, by most."""
+    best, at = -np.inf, (0, 0)
+    for which, vectors in enumerate(found.vectors):
+        ours, theirs = (
+            np.linalg.norm(found.poses(which, name) - vectors.values, axis=1) for name in ("keyposes", "uniform")
+        )
+        frame = int((theirs - ours).argmax())
+        if theirs[frame] - ours[frame] > best:
+            best, at = float(theirs[frame] - ours[frame]), (which, frame)
+    return at
+
+
+def write_lowdim_pictures(folder: Path, found: LowDimensional) -> list[str]:
+    """Draw the pictures to a folder; their names.
+
+    ``unnatural.png`` where uniform sampling makes an unnatural posture and keyposes do not, else ``postures.png`` of
+    the moment at which they differ most; ``dimensions.png``.
+    """
+    worst = worst_posture(found)
+    name = "postures.png" if worst is None else "unnatural.png"
+    write_png(folder / name, posture_picture(found, *(most_different(found) if worst is None else worst)))
+    write_png(folder / "dimensions.png", dimensions_picture(found, 0, telling_frame(found, 0)))
+    return [name, "dimensions.png"]
+
+
+def _amount(through: Array, beyond: Array) -> Array:
+    """How unnatural: 3 cm through a bone count as 10° beyond a joint's range."""
+    return np.maximum(np.maximum(through / 0.03, beyond / 0.17), 0.0)
+
+
+def posture_picture(found: LowDimensional, which: int, frame: int, size: Size = (300, 380)) -> np.ndarray:
+    """Figs. 13 and 14: keyposes, original and uniform sampling at one moment, from the front and from the side.
+
+    Returns
+    -------
+    (2 * height, 3 * width, 3) uint8.
+    """
+    moments = [
+        found.motion(which, "keyposes")[frame : frame + 1],
+        found.motions[which][frame : frame + 1],
+        found.motion(which, "uniform")[frame : frame + 1],
+    ]
+    titles = ("keyposes", "original", "uniform")
+    rows = [_row(moments, found.motions[which], titles if side < 1 else (), size, side) for side in (0.3, SIDE)]
+    return np.vstack(rows)
+
+
+def dimensions_picture(found: LowDimensional, which: int, frame: int, size: Size = (300, 380)) -> np.ndarray:
+    """Fig. 10: one moment in 1, 2, 3 and 4 dimensions of the keypose space, and the original."""
+    most = min(4, len(found.spaces["keyposes"]))
+    moments = [found.motion(which, "keyposes", dims)[frame : frame + 1] for dims in range(1, most + 1)]
+    titles = [f"{dims} dimension{'s' * (dims > 1)}" for dims in range(1, most + 1)]
+    moments.append(found.motions[which][frame : frame + 1])
+    return _row(moments, found.motions[which], (*titles, "original"), size, 0.3)
+
+
+def telling_frame(found: LowDimensional, which: int) -> int:
+    """A frame in the middle of a person's cycle's most outstretched keypose."""
+    one = found.taught[which]
+    reach = np.linalg.norm(one.vectors.at(one.keyposes) - found.spaces["keyposes"].mean, axis=1)
+    return min(round(float(one.keyposes[reach.argmax()]) * one.vectors.fps), len(one.vectors) - 1)
+
+
+def _row(
+    moments: list[Motion], original: Motion, titles: tuple[str, ...] | list[str], size: Size, side: float
+) -> np.ndarray:
+    figure = Figure.of(original.skeleton)
+    ground = ground_height(figure, original)
+    paths = [follow(moment, figure, ground, size=size, smoothing=0.0, side=side, elevation=0.12) for moment in moments]
+    distance = max(float(path.distances[0]) for path in paths)
+    pictures: list[np.ndarray] = []
+    for number, (moment, path) in enumerate(zip(moments, paths, strict=True)):
+        # The same camera for all, that of the first: what differs is the posture.
+        camera = replace(paths[0], distances=np.full(1, distance), targets=path.targets)[0]
+        picture = render_frame(moment.positions[0], figure, camera, size, Stage.lit_from(path.azimuth, ground, fine=3))
+        if number < len(titles):
+            write_text(picture, titles[number], 10, 8, 18, (90, 96, 104))
+        pictures.append(picture)
+    return np.hstack(pictures)

@@ -1,0 +1,138 @@
+"""``onbeat lowdim``: what it writes and says, and what it says of mistakes."""
+
+import json
+
+import cyclopts
+import numpy as np
+import pytest
+
+from folk_dancers import dancers
+from onbeat.cli.lowdim import lowdim_command
+from onbeat.errors import OnbeatError
+from onbeat.formats import read_motion, write_motion
+from onbeat.keyposes.lowdim_document import LowdimDocument
+
+pytestmark = pytest.mark.filterwarnings("ignore:Cyclopts application invoked")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Three dancers with marked keyposes, and the beats they dance to."""
+    folder = tmp_path_factory.mktemp("dancers")
+    for clip in dancers(3):
+        write_motion(clip.motion, folder / f"{clip.person}.bvh")
+        lines = "\n".join(f"{time:.6f}" for time in clip.keyposes)
+        (folder / f"{clip.person}.keyposes.csv").write_text(lines)
+    (folder / "dance.beats").write_text("\n".join(f"{beat:.6f}" for beat in dancers(3)[0].beats))
+    return folder
+
+
+@pytest.fixture
+def run(capsys):
+    """Runs the command in this process; gives stdout and stderr."""
+
+    def call(*words):
+        app = cyclopts.App(result_action="return_value")
+        app.default(lowdim_command)
+        app([str(word) for word in words], exit_on_error=False)
+        return capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture(scope="module")
+def written(folder, tmp_path_factory):
+    out = tmp_path_factory.mktemp("lowdim") / "out"
+    app = cyclopts.App(result_action="return_value")
+    app.default(lowdim_command)
+    app(
+        [*map(str, sorted(folder.glob("*.bvh"))), "--in-cycle", "8", "--dims", "2", "-o", str(out)], exit_on_error=False
+    )
+    return out
+
+
+def test_motions_figures_page_and_document_are_written(written):
+    names = {path.name for path in written.iterdir()}
+    motions = {
+        f"{name}_{space}_{dims}d.bvh" for name in ("Aiko", "Bruno", "Carla") for space in ("keyposes", "uniform")
+        for dims in (1, 2)
+    }  # fmt: skip
+    figures = {f"{f}.{kind}" for f in ("variance", "clusters", "trajectory", "held_out") for kind in ("png", "svg")}
+    assert motions | figures | {"lowdim.json", "judge.html", "dimensions.png"} <= names
+    assert {"postures.png", "unnatural.png"} & names
+    assert names - motions - figures <= {"lowdim.json", "judge.html", "dimensions.png", "postures.png", "unnatural.png"}
+
+
+def test_the_motions_play(written, folder):
+    original, made = read_motion(folder / "Bruno.bvh"), read_motion(written / "Bruno_keyposes_2d.bvh")
+    assert made.skeleton == original.skeleton
+    assert len(made) == len(original)
+    assert np.allclose(made.root_positions, original.root_positions, atol=1e-5)
+    assert 0.02 < np.linalg.norm(made.positions - original.positions, axis=-1).mean() < 0.2
+
+
+def test_the_document_says_who_taught_what(written, run, folder):
+    told = LowdimDocument.from_json((written / "lowdim.json").read_bytes())
+    assert [person.name for person in told.people] == ["Aiko", "Bruno", "Carla"]
+    assert all(len(person.keyposes) == 8 for person in told.people)
+    assert told.dims == 2
+    shown = run(*sorted(folder.glob("*.bvh")), "--in-cycle", "8", "--dims", "2", "--json")
+    assert shown.out.encode() == (written / "lowdim.json").read_bytes()
+
+
+def test_without_marks_keyposes_are_found_on_the_beats(folder, tmp_path, run):
+    for name in ("Aiko", "Bruno"):
+        (tmp_path / f"{name}.bvh").write_bytes((folder / f"{name}.bvh").read_bytes())
+    given = [*sorted(tmp_path.glob("*.bvh")), "--in-cycle", 8]
+    shown = run(*given, "--beats", folder / "dance.beats")
+    assert "2 people, 16 poses, 3 of 15 dimensions" in shown.out
+    assert "error, unseen people: keyposes" in shown.out
+    assert "beats from the motion itself" in run(*given).err
+
+
+def test_files_of_one_name_are_told_apart_by_their_folders(folder, tmp_path, run):
+    other = tmp_path / "second"
+    other.mkdir()
+    for ending in (".bvh", ".keyposes.csv"):
+        (other / f"Aiko{ending}").write_bytes((folder / f"Aiko{ending}").read_bytes())
+    shown = run(folder / "Aiko.bvh", other / "Aiko.bvh", "--in-cycle", "8", "--json")
+    assert [person["name"] for person in json.loads(shown.out)["people"]][1] == "second_Aiko"
+
+
+def test_answers_are_judged(tmp_path, run):
+    rows = [{"motion": "Aiko", "a": "uniform", "b": "keyposes", "chosen": "b"}] * 9
+    for name in ("one.json", "two.json"):
+        (tmp_path / name).write_text(json.dumps({"version": 1, "dims": 3, "answers": rows}))
+    shown = run("--judged", tmp_path / "one.json", tmp_path / "two.json")
+    assert shown.out.startswith("18 of 18 chose keyposes (100%")
+    assert "p = 7.6e-06" in shown.out
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ((), "no motions"),
+        (("none.bvh",), "no file none.bvh"),
+        (("--judged", "none.json"), "cannot read none.json"),
+        (("Aiko.bvh", "--judged", "none.json"), "leave out Aiko.bvh"),
+        (("Aiko.bvh", "--in-cycle", "99"), "of which a cycle has 99"),
+        (("Aiko.bvh", "--dims", "40"), "40 dimensions of a space that has"),
+        (("Aiko.bvh", "--rho", "2"), "a share of 2"),
+        (("Aiko.bvh", "Aiko.bvh"), "no name twice"),
+        (("Aiko.bvh", "--in-cycle", "8", "-o", "dance.beats/out"), "cannot make the folder"),
+    ],
+)
+def test_mistakes_are_told(folder, monkeypatch, run, words, told):
+    monkeypatch.chdir(folder)
+    with pytest.raises(OnbeatError, match=told):
+        run(*words)
+
+
+def test_a_motion_that_stands_still_has_no_keyposes(tmp_path, run):
+    clip = dancers(1)[0].motion
+    still = clip.replace(rotations=np.repeat(clip.rotations[:1], len(clip), axis=0),
+                         root_positions=np.repeat(clip.root_positions[:1], len(clip), axis=0))  # fmt: skip
+    write_motion(still, tmp_path / "still.bvh")
+    (tmp_path / "still.beats").write_text("\n".join(str(beat / 2) for beat in range(30)))
+    with pytest.raises(OnbeatError, match="still"):
+        run(tmp_path / "still.bvh", "--beats", tmp_path / "still.beats")
