@@ -6,16 +6,16 @@ from collections.abc import Iterable
 
 from onbeat._shapes import Array, Float32, Ints, Times
 from onbeat.music.activation import activation_log_odds
-from onbeat.music.bars import downbeat_log_odds, find_downbeats, learned_downbeats, likeliest_bars
-from onbeat.music.chords import chord_change, harmony_slices
+from onbeat.music.bars import downbeat_log_odds, learned_downbeats, likeliest_bars
+from onbeat.music.chords import harmony_slices
 from onbeat.music.confidence import beat_confidence
+from onbeat.music.heard import heard_song
 from onbeat.music.hearing import Hearing, Progress, hear
-from onbeat.music.intensity import intensity, normalised
 from onbeat.music.metrical import likeliest_level, metrical_levels
 from onbeat.music.observation import beat_log_odds, harmony_at_frames, unit_power
 from onbeat.music.onsets import onset_strength
 from onbeat.music.song import Song
-from onbeat.music.tempo import beat_space, tempo_of
+from onbeat.music.tempo import beat_space
 from onbeat.music.timing import accents, learned_times, sounding
 
 NAME = "barpointer"
@@ -61,18 +61,5 @@ def listen_barpointer(blocks: Iterable[Float32], rate: int, progress: Progress |
     inside = sounding(hearing, times)
     frames, times = frames[inside], times[inside]
     slices = ear.slices(times)
-    downbeats, meter = find_downbeats(ear.downbeats(slices, frames))
-    intensity_times, values = intensity(hearing.tones, hearing.loudness, hearing.tone_rate, hearing.duration)
-    return Song(
-        duration=hearing.duration,
-        tempo=tempo_of(times),
-        meter=meter,
-        beats=times,
-        downbeats=times[downbeats],
-        chord_change=chord_change(slices),
-        intensity_times=intensity_times,
-        intensity=values,
-        method=NAME,
-        beat_strength=normalised(accents(ear.flux, frames).mean(axis=1), 0.0),
-        confidence=beat_confidence(ear.learned[:, 0], frames),
-    )
+    sure = beat_confidence(ear.learned[:, 0], frames)
+    return heard_song(hearing, NAME, times, slices, accents(ear.flux, frames), ear.downbeats(slices, frames), sure)

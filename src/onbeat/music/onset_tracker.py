@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from onbeat._shapes import Float32
-from onbeat.music.bars import downbeat_log_odds, find_downbeats
-from onbeat.music.chords import chord_change, harmony_slices
+from onbeat.music.bars import downbeat_log_odds
+from onbeat.music.chords import harmony_slices
 from onbeat.music.decode import decode_beats
+from onbeat.music.heard import heard_song
 from onbeat.music.hearing import Progress, hear
-from onbeat.music.intensity import intensity, normalised
 from onbeat.music.observation import harmony_at_frames, onset_log_odds, unit_power
 from onbeat.music.onsets import onset_strength
 from onbeat.music.song import Song
-from onbeat.music.tempo import beat_space, tempo_of
+from onbeat.music.tempo import beat_space
 from onbeat.music.timing import accents, attack_times, sounding
 
 NAME = "onsets"
@@ -32,17 +32,4 @@ def listen_onsets(blocks: Iterable[Float32], rate: int, progress: Progress | Non
     frames, times = frames[inside], times[inside]
     slices = harmony_slices(hearing.tones, hearing.tone_rate, times)
     accent = accents(flux, frames)
-    downbeats, meter = find_downbeats(downbeat_log_odds(slices, accent[:, 0]))
-    intensity_times, values = intensity(hearing.tones, hearing.loudness, hearing.tone_rate, hearing.duration)
-    return Song(
-        duration=hearing.duration,
-        tempo=tempo_of(times),
-        meter=meter,
-        beats=times,
-        downbeats=times[downbeats],
-        chord_change=chord_change(slices),
-        intensity_times=intensity_times,
-        intensity=values,
-        method=NAME,
-        beat_strength=normalised(accent.mean(axis=1), 0.0),
-    )
+    return heard_song(hearing, NAME, times, slices, accent, downbeat_log_odds(slices, accent[:, 0]))
