@@ -12,6 +12,7 @@ from onbeat.formats.report import FileReport
 from onbeat.keyposes.document import KeyposesDocument
 from onbeat.keyposes.judging import AnswersDocument
 from onbeat.keyposes.lowdim_document import LowdimDocument
+from onbeat.keyposes.threshold_file import LearnedDocument
 from onbeat.music.song import SongDocument
 
 PAGE = Path(__file__).parent / "documents.md"
@@ -41,6 +42,7 @@ DOCUMENTS = (
     ),
     Document("dance.json", DanceDocument, "Written by `onbeat dance` beside the motion."),
     Document("keyposes.json", KeyposesDocument, "Written by `onbeat keyposes MOTION -o FOLDER`."),
+    Document("thresholds.json", LearnedDocument, "Written by `onbeat keyposes learn … -o thresholds.json`."),
     Document("lowdim.json", LowdimDocument, "Written by `onbeat lowdim MOTIONS… -o FOLDER`."),
     Document("answers.json", AnswersDocument, "Saved by `judge.html`, read by `onbeat lowdim --judged`."),
     Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),

@@ -55,6 +55,49 @@ def test_three_dancers_move_as_the_motions_do(opened: Any):
     assert opened.complaints == []
 
 
+def test_answers_outlive_a_reload_until_the_next_person(opened: Any):
+    page = opened.page
+    page.keyboard.press("b")
+    page.keyboard.press("a")
+    given = page.evaluate("window.onbeat.collected().answers")
+    page.reload()
+    assert page.evaluate("window.onbeat.collected().answers") == given
+    assert page.inner_text("#place") == "3 of 3"
+    page.keyboard.press("a")
+    page.reload()
+    assert page.is_visible("#done")
+    assert page.is_disabled("#next")  # not before the answers are saved
+    with page.expect_download():
+        page.click("#save")
+    page.click("#next")
+    assert page.inner_text("#place") == "1 of 3"
+    page.reload()
+    assert page.evaluate("window.onbeat.collected().answers") == []
+    assert opened.complaints == []
+
+
+@pytest.mark.parametrize("kept", ["{", "null", "[]", "[null]", '[{"chosen": "a"}]', '{"a": 1}', "7"])
+def test_what_is_kept_and_is_no_answers_is_left_alone(opened: Any, kept: str):
+    page = opened.page
+    page.evaluate(
+        "kept => localStorage.setItem("
+        "'onbeat judge ' + JSON.parse(document.getElementById('data').textContent).key, kept)",
+        kept,
+    )
+    page.reload()
+    assert page.inner_text("#place") == "1 of 3"
+    assert opened.complaints == []
+
+
+def test_a_browser_that_keeps_nothing_asks_all_the_same(opened: Any):
+    page = opened.page
+    page.add_init_script("Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } })")
+    page.reload()
+    page.keyboard.press("b")
+    assert page.inner_text("#place") == "2 of 3"
+    assert opened.complaints == []
+
+
 def test_keys_and_buttons_choose_and_answers_are_saved(opened: Any, tmp_path: Path):
     page = opened.page
     page.keyboard.press("a")

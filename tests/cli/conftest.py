@@ -19,11 +19,11 @@ Run = Callable[..., tuple[int, str, str]]
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    """Runs the command in this process; gives exit status, stdout and stderr."""
+def onbeat(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs ``onbeat`` with some words in this process; gives exit status, stdout and stderr."""
 
     def call(*words: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["onbeat", "dance", *map(str, words)])
+        monkeypatch.setattr(sys, "argv", ["onbeat", *map(str, words)])
         try:
             main()
             status = 0
@@ -33,6 +33,12 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
         return status, out, err
 
     return call
+
+
+@pytest.fixture
+def run(onbeat: Run) -> Run:
+    """Runs ``onbeat dance``, likewise."""
+    return lambda *words: onbeat("dance", *words)
 
 
 @pytest.fixture(scope="module")

@@ -3,37 +3,18 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from onbeat.cli import main
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
 from onbeat.formats import write_motion
 
 Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def onbeat(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    """Runs a command in this process; gives exit status, stdout and stderr."""
-
-    def call(*words: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["onbeat", *map(str, words)])
-        try:
-            main()
-            status = 0
-        except SystemExit as stop:
-            status = int(stop.code or 0)
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return call
 
 
 @pytest.fixture(scope="module")
@@ -79,8 +60,8 @@ def test_learning_writes_thresholds_that_finding_takes(onbeat: Run, folder: Path
     assert "held out" in out
     assert 0.0 < json.loads(learned.read_text())["held_out_f"] <= 1.0
     status, out, _ = onbeat("keyposes", names[0], "--beats", folder / "Aiko.beats", "--thresholds", learned, "--json")
-    t1, t2 = json.loads(learned.read_text())["thresholds"]
-    assert json.loads(out)["thresholds"] == {"t1": t1, "t2": t2}
+    document = json.loads(learned.read_text())
+    assert json.loads(out)["thresholds"] == {"t1": document["t1"], "t2": document["t2"]}
 
 
 def test_evaluating_prints_methods_baselines_and_chance(onbeat: Run, folder: Path, tmp_path: Path) -> None:
@@ -102,9 +83,16 @@ def test_evaluating_prints_methods_baselines_and_chance(onbeat: Run, folder: Pat
         (("Aiko.npz", "--beats", "Aiko.beats", "--song-at", "99"), "two are needed: say when the song begins"),
         (("Aiko.npz", "--beats", "Aiko.beats", "--music", "x.wav"), "give one of them"),
         (("Aiko.npz", "--beats", "Aiko.beats", "--t1", "-1"), "cannot be; give 0 or more"),
-        (("Aiko.npz", "--beats", "Aiko.beats", "--method", "magic"), "there are energy"),
-        (("Aiko.npz", "--beats", "Aiko.beats", "--energy", "magic"), "there are rms"),
-        (("Aiko.npz", "--beats", "Aiko.beats", "--thresholds", "Aiko.beats"), "holds no thresholds"),
+        (("Aiko.npz", "--beats", "Aiko.beats", "--thresholds", "Aiko.beats"), "is not what `onbeat keyposes learn -o`"),
+        (("Aiko.npz", "--song-at", "3"), "give the second of the motion at which --music or --beats begin"),
+        (("Aiko.npz", "--beats", "Aiko.beats", "--song-at", "nan"), "--song-at nan"),
+        (("Aiko.npz", "--beats", "Aiko.beats", "--method", "hands", "--t1", "1"), "hands does not look at --t1"),
+        (
+            ("Aiko.npz", "--beats", "Aiko.beats", "--method", "paper2009", "--energy", "sum"),
+            "does not look at --energy",
+        ),
+        (("Aiko.npz", "--beats", "Aiko.beats", "--window", "0.7"), "--window 0.7 of a beat"),
+        (("evaluate", "Aiko.npz", "--seed", "-1"), "--seed -1: give 0 or more"),
         (("Aiko.npz", "--beats", "Aiko.beats", "--cycle", "0"), "a cycle of 0 beats cannot be"),
         (("nobody.npz",), "no file"),
         (("learn", "nobody.npz"), "nobody.keyposes.csv beside nobody.npz"),
@@ -117,3 +105,31 @@ def test_what_cannot_be_is_one_clear_line(onbeat: Run, folder: Path, words: tupl
     assert message in err
     assert out == ""
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("flag", ["--method", "--energy", "--order", "--weights"])
+def test_an_unknown_name_is_wrong_usage_before_anything_is_read(onbeat: Run, flag: str) -> None:
+    status, _, err = onbeat("keyposes", "nobody.npz", flag, "magic")
+    assert status == 2
+    assert "magic" in err
+
+
+def test_learned_options_go_along_with_the_thresholds(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    learned = tmp_path / "t.json"
+    names = [folder / "Aiko.npz", folder / "Bruno.npz"]
+    onbeat("keyposes", "learn", *names, "--energy", "sum", "--order", "local", "-o", learned)
+    _, out, _ = onbeat("keyposes", names[0], "--beats", folder / "Aiko.beats", "--thresholds", learned, "--json")
+    document = json.loads(out)
+    assert (document["energy"], document["order"], document["weights"]) == ("sum", "local", "uniform")
+    _, out, _ = onbeat(
+        "keyposes", names[0], "--beats", folder / "Aiko.beats", "--thresholds", learned, "--order", "global", "--json"
+    )
+    assert json.loads(out)["order"] == "global"
+
+
+def test_examples_need_beats(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    for name in ("Aiko.npz", "Aiko.keyposes.csv"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    status, _, err = onbeat("keyposes", "learn", tmp_path / "Aiko.npz")
+    assert status == 1
+    assert "no Aiko.beats and no song Aiko.wav beside Aiko.npz" in err

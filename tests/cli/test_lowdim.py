@@ -99,13 +99,65 @@ def test_files_of_one_name_are_told_apart_by_their_folders(folder, tmp_path, run
     assert [person["name"] for person in json.loads(shown.out)["people"]][1] == "second_Aiko"
 
 
+def test_files_of_one_name_in_folders_of_one_name_are_numbered(folder, tmp_path, run):
+    for name in ("a", "b"):
+        (tmp_path / name / "x").mkdir(parents=True)
+        for ending in (".bvh", ".keyposes.csv"):
+            (tmp_path / name / "x" / f"1{ending}").write_bytes((folder / f"Aiko{ending}").read_bytes())
+    shown = run(*sorted(tmp_path.glob("*/x/1.bvh")), "--in-cycle", "8", "--dims", "2", "--json")
+    assert [person["name"] for person in json.loads(shown.out)["people"]] == ["x_1", "x_1 (2)"]
+
+
+def test_where_the_others_span_fewer_dimensions_that_is_said(folder, tmp_path, run):
+    for name in ("Aiko", "Bruno"):
+        (tmp_path / f"{name}.bvh").write_bytes((folder / f"{name}.bvh").read_bytes())
+        marks = (folder / f"{name}.keyposes.csv").read_text().split()
+        (tmp_path / f"{name}.keyposes.csv").write_text("\n".join(marks[:4]))
+    shown = run(*sorted(tmp_path.glob("*.bvh")))
+    rows = {line.split("  ")[0]: line.split()[-2:] for line in shown.out.splitlines()}
+    assert "2 people, 4 poses, 3 of 3 dimensions" in rows
+    assert rows["error, unseen people: all frames"] == ["–", "–"]
+    assert "mm" in rows["error, unseen frames: all frames"]
+    assert "span but 1 dimension" in shown.out
+    assert "as points: bone through bone" in shown.out
+
+
+def test_of_one_cycle_the_table_tells_what_was_tested(folder, tmp_path, run):
+    (tmp_path / "Aiko.bvh").write_bytes((folder / "Aiko.bvh").read_bytes())
+    marks = (folder / "Aiko.keyposes.csv").read_text().split()
+    (tmp_path / "Aiko.keyposes.csv").write_text("\n".join(marks[:8]))
+    shown = run(tmp_path / "Aiko.bvh", "--in-cycle", "8").out
+    assert shown.startswith("1 person, 8 poses")
+    assert "error, between taught poses: all frames" in shown
+    assert "unseen" not in shown
+
+
 def test_answers_are_judged(tmp_path, run):
-    rows = [{"motion": "Aiko", "a": "uniform", "b": "keyposes", "chosen": "b"}] * 9
-    for name in ("one.json", "two.json"):
-        (tmp_path / name).write_text(json.dumps({"version": 1, "dims": 3, "answers": rows}))
-    shown = run("--judged", tmp_path / "one.json", tmp_path / "two.json")
-    assert shown.out.startswith("18 of 18 chose keyposes (100%")
+    one, two = saved(tmp_path / "one.json", 1.0), saved(tmp_path / "two.json", 2.0)
+    shown = run("--judged", one, two)
+    assert shown.out.startswith(
+        "18 of 18 chose keyposes (100%; 95 % confidence interval of the true share: 81% to 100%"
+    )
     assert "p = 7.6e-06" in shown.out
+    told = json.loads(run("--judged", one, two, "--json").out)
+    assert (told["chosen"], told["trials"]) == (18, 18)
+    assert told["low"] == pytest.approx(0.8147, abs=1e-4)
+
+
+def saved(path, seconds, dims=3):
+    rows = [{"motion": "Aiko", "a": "uniform", "b": "keyposes", "chosen": "b", "seconds": seconds}] * 9
+    path.write_text(json.dumps({"version": 1, "dims": dims, "answers": rows}))
+    return path
+
+
+def test_answers_that_do_not_belong_together_are_refused(tmp_path, run):
+    one, copy, flat = (saved(tmp_path / f"{n}.json", 1.0, dims) for n, dims in enumerate((3, 3, 2)))
+    with pytest.raises(OnbeatError, match=r"1\.json holds the same answers as .*0\.json"):
+        run("--judged", one, copy)
+    with pytest.raises(OnbeatError, match="of 2 and of 3 dimensions"):
+        run("--judged", one, flat)
+    with pytest.raises(OnbeatError, match="leave out -o"):
+        run("--judged", one, "-o", tmp_path / "out")
 
 
 @pytest.mark.parametrize(
@@ -118,7 +170,10 @@ def test_answers_are_judged(tmp_path, run):
         (("Aiko.bvh", "--in-cycle", "99"), "of which a cycle has 99"),
         (("Aiko.bvh", "--dims", "40"), "40 dimensions of a space that has"),
         (("Aiko.bvh", "--rho", "2"), "a share of 2"),
-        (("Aiko.bvh", "Aiko.bvh"), "no name twice"),
+        (("Aiko.bvh", "Bruno.bvh", "./Aiko.bvh"), "Aiko.bvh is given twice"),
+        (("none.bvh", "--seed", "-1"), "--seed -1"),
+        (("none.bvh", "--repeats", "0"), "--repeats 0"),
+        (("none.bvh", "--repeats", "11"), "give 1 to 10"),
         (("Aiko.bvh", "--in-cycle", "8", "-o", "dance.beats/out"), "cannot make the folder"),
     ],
 )

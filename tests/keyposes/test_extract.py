@@ -57,7 +57,7 @@ def test_global_goes_before_local(clip: Performance) -> None:
 def test_markers_give_what_the_joints_give(clip: Performance) -> None:
     body = Body.of(clip.motion.skeleton)
     roles = list(body.joints)
-    labels = [{"hips": "hips"}.get(role, role) for role in roles]
+    labels = [f"point {number}" for number in range(len(roles))]
     markers = Markers(labels, clip.motion.positions[:, body.indices(*roles)], clip.motion.fps)
     alone = find_keyposes(markers, clip.beats, options=Options(order="global"))
     joints = find_keyposes(clip.motion, clip.beats, options=Options(order="global"))
@@ -135,3 +135,39 @@ def test_the_same_motion_gives_the_same_keyposes_whatever_its_mean_speed(clip: P
     straight = find_keyposes(clip.motion, clip.beats)
     before_and_after = {0, len(straight.song_beats) - 1}  # the poses in which the dancer stands
     assert set(found.beats.tolist()) - before_and_after == set(straight.beats.tolist()) - before_and_after
+
+
+def test_someone_who_stands_and_sways_has_no_keypose_there(clip: Performance) -> None:
+    motion = clip.motion
+    count = round(6 * motion.fps)
+    sway = 0.004 * np.sin(2 * np.pi * 0.9 * np.arange(count) / motion.fps)
+    standing = np.repeat(motion.root_positions[:1], count, axis=0) + np.outer(sway, [1.0, 0.3, 0.0])
+    longer = Motion(
+        motion.skeleton,
+        np.concatenate([np.repeat(motion.rotations[:1], count, axis=0), motion.rotations]),
+        np.concatenate([standing, motion.root_positions]),
+        motion.fps,
+    )
+    beats = np.concatenate([np.arange(0.2, 5.6, 0.5), 6.0 + clip.beats])
+    found = find_keyposes(longer, beats)
+    assert (found.times > 5.5).all()
+    assert score(inside(found.times - 6.0, clip), clip.keyposes, 0.12).recall == 1.0
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_times_increase_on_uneven_beats_too(clip: Performance, method: str) -> None:
+    rng = np.random.default_rng(2)
+    beats = np.sort(rng.uniform(0.2, clip.motion.duration - 0.2, 40))
+    assert (np.diff(find_keyposes(clip.motion, beats, method).times) > 0).all()
+
+
+def test_two_far_beats_cost_no_more_than_others(clip: Performance) -> None:
+    found = find_keyposes(clip.motion, np.array([0.1, clip.motion.duration - 0.5]))
+    assert len(found) <= 2
+
+
+def test_without_a_known_frame_there_is_no_local_energy(clip: Performance) -> None:
+    markers = Markers([f"x{k}" for k in range(5)], clip.motion.positions[:, :5], clip.motion.fps)
+    found = find_keyposes(markers, clip.beats, options=Options(order="global"))
+    assert len(found.energy.local) == 0
+    assert set(found.candidates) == {"global"}

@@ -8,9 +8,9 @@ from onbeat.errors import MetricError
 from onbeat.keyposes.judging import SPACES, AnswersDocument, trials, verdict, verdict_of
 
 
-def answers(*chosen, a="keyposes", b="uniform"):
+def answers(*chosen, a="keyposes", b="uniform", dims=3):
     rows = [{"motion": "Aiko", "a": a, "b": b, "chosen": one, "seconds": 1.5} for one in chosen]
-    return json.dumps({"version": 1, "dims": 3, "answers": rows}).encode()
+    return json.dumps({"version": 1, "dims": dims, "answers": rows}).encode()
 
 
 def test_each_motion_is_asked_and_keyposes_are_as_often_a_as_b():
@@ -19,6 +19,7 @@ def test_each_motion_is_asked_and_keyposes_are_as_often_a_as_b():
     assert sorted(trial.motion for trial in asked) == sorted(2 * names)
     assert sum(trial.a == "keyposes" for trial in asked) == 9
     assert all({trial.a, trial.b} == set(SPACES) for trial in asked)
+    assert {(trial.motion, trial.stretch) for trial in asked} == {(name, n) for name in names for n in (0, 1)}
 
 
 def test_the_seed_draws_the_order():
@@ -50,12 +51,18 @@ def test_answers_of_several_people_are_counted_by_what_was_shown():
     assert (found.chosen, found.trials) == (3, 5)
 
 
+def test_answers_on_motions_in_other_dimensions_are_not_counted_together():
+    documents = [AnswersDocument.from_json(answers("a", dims=dims)) for dims in (3, 2, 3)]
+    with pytest.raises(MetricError, match="of 2 and of 3 dimensions"):
+        verdict_of(documents)
+
+
 @pytest.mark.parametrize(
     ("data", "told"),
     [
-        (b"", "no answers"),
-        (b"[" * 100000, "no answers"),
-        (b'{"version": 1}', "no answers"),
+        (b"", "not a file of answers"),
+        (b"[" * 100000, "not a file of answers"),
+        (b'{"version": 1}', "not a file of answers"),
         (b'{"version": 3, "dims": 1, "answers": []}', "version 3"),
         (answers("c"), "answer 0 chose 'c'"),
         (answers("a", b="keyposes"), "'keyposes' and 'keyposes'"),

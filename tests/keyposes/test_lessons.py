@@ -25,14 +25,16 @@ def test_of_one_cycle_the_poses_between_are_tested(own):
     taught, unseen = lesson("Aiko", own, dancers(1)[0].keyposes[:8], 8)
     assert unseen.spans == ((taught.start, taught.end),)
     assert len(unseen.keyposes) == 0
+    assert unseen.between
+    assert not lesson("Aiko", own, dancers(1)[0].keyposes, 8)[1].between
 
 
 @pytest.mark.parametrize(
     ("times", "cycle", "told"),
     [
         ([], None, "0 keyposes"),
-        ([1.0], None, "1 keyposes"),
-        ([1.0, 2.0, 3.0], 8, "3 keyposes, of which a cycle has 8"),
+        ([1.0], None, "1 keypose;"),
+        ([1.0, 2.0, 3.0], 8, "3 keyposes, of which a cycle has 8.* another --in-cycle"),
         ([1.0, 2.0, 3.0], 1, "a cycle has 1"),
         ([1.0, 3.0, 2.0], None, "not increasing"),
         ([1.0, np.nan, 2.0], None, "not increasing"),

@@ -3,6 +3,7 @@ import pytest
 
 from folk_dancers import dancers, spaces_of
 from onbeat.errors import MetricError
+from onbeat.keyposes.held_out import held_out
 from onbeat.keyposes.lowdim import low_dimensional
 from onbeat.keyposes.lowdim_document import LowdimDocument, document
 
@@ -26,10 +27,24 @@ def test_one_person_alone_has_no_strangers():
 
 
 def test_more_dimensions_than_there_are_are_refused():
-    with pytest.raises(MetricError, match="9 dimensions of a space that has 7: 8 keyposes of 1 people"):
+    with pytest.raises(MetricError, match="9 dimensions of a space that has 7: 8 keyposes of 1 person span"):
         made(1, dims=9, cycle=8)
     with pytest.raises(MetricError, match="0 dimensions"):
         made(1, dims=0, cycle=8)
+
+
+def test_of_dances_of_one_cycle_what_lies_between_the_taught_poses_is_said_to_be():
+    clips = dancers(2)
+    motions, names = [clip.motion for clip in clips], [clip.person for clip in clips]
+    one = low_dimensional(motions, [clip.keyposes[:8] for clip in clips], names, cycle=8)
+    assert one.between
+    assert [row.unseen for row in document(one).errors] == ["between"] * 2 + ["people"] * 2
+    # A dance that has unseen frames is measured on them alone, and the other is left out.
+    both = low_dimensional(motions, [clips[0].keyposes, clips[1].keyposes[:8]], names, cycle=8)
+    alone = held_out(both.taught, both.tested[:1], len(both.frames.dims))
+    assert not both.between
+    assert np.array_equal(both.frames.keypose, alone.keypose)
+    assert {row.unseen for row in document(both).errors} == {"frames", "people"}
 
 
 def test_people_have_names_of_their_own():

@@ -15,9 +15,16 @@ from folk_dancers import spaces_of
 from onbeat.errors import MetricError
 from onbeat.keyposes.judging import SPACES, trials
 from onbeat.keyposes.lowdim import LowDimensional
-from onbeat.viewer.judge_page import FPS, write_judge_page
+from onbeat.viewer.judge_page import FPS, LONGEST, stretches, write_judge_page
 from onbeat.viewer.lowdim_figures import write_lowdim_figures
-from onbeat.viewer.lowdim_pictures import dimensions_picture, most_different, posture_picture, telling_frame
+from onbeat.viewer.lowdim_pictures import (
+    CAPTION,
+    both_sides,
+    dimensions_picture,
+    most_different,
+    posture_picture,
+    telling_frame,
+)
 
 
 def asked(found: LowDimensional) -> list[Any]:
@@ -44,7 +51,7 @@ def test_the_page_holds_all_it_needs(page: bytes):
 
 def test_what_is_drawn_are_the_motions(page: bytes):
     found, data = spaces_of(3), data_of(page)
-    one, shown = found.taught[1], data["motions"]["Bruno"]
+    one, (shown,) = found.taught[1], data["motions"]["Bruno"]
     times = one.start + np.arange(shown["frames"]) / FPS
     assert shown["frames"] / FPS == pytest.approx(one.end - one.start, abs=0.1)
     for name, motion in {"original": found.motions[1], **{s: found.motion(1, s) for s in SPACES}}.items():
@@ -61,8 +68,34 @@ def test_what_is_drawn_are_the_motions(page: bytes):
 def test_the_dancers_left_is_on_the_viewers_right(page: bytes):
     data = data_of(page)
     names = spaces_of(3).vectors[0].points
-    places = np.reshape(data["motions"]["Aiko"]["paths"]["original"], (-1, len(names), 3))
+    places = np.reshape(data["motions"]["Aiko"][0]["paths"]["original"], (-1, len(names), 3))
     assert (places[:, names.index("left_hip"), 0] > places[:, names.index("right_hip"), 0]).mean() > 0.95
+
+
+def test_repeats_show_other_stretches(page: bytes, tmp_path: Path):
+    found, people = spaces_of(3), ["Aiko", "Bruno", "Carla"]
+    one, (spans,) = found.taught[1], [stretches(found, 1, 3)]
+    assert stretches(found, 1, 1) == [(one.start, pytest.approx(min(one.end, one.start + LONGEST)))]
+    assert spans[0][0] == one.start
+    starts = np.sort([start for start, _ in spans])
+    assert np.diff(starts).min() > 1.0
+    assert starts[0] >= found.tested[1].spans[0][0]
+    assert max(end for _, end in spans) <= found.tested[1].spans[-1][1] + 1e-9
+    write_judge_page(tmp_path / "judge.html", found, trials(people, np.random.default_rng(0), 3))
+    data = data_of((tmp_path / "judge.html").read_bytes())
+    shown = [one["paths"]["original"] for one in data["motions"]["Bruno"]]
+    assert len(shown) == 3
+    assert shown[0] != shown[1] != shown[2]
+    assert data["key"] != data_of(page)["key"]
+
+
+def test_a_dance_of_one_cycle_has_shorter_stretches():
+    found = spaces_of(2)
+    whole = ((found.taught[0].start, found.taught[0].end),)
+    single = replace(found, tested=(replace(found.tested[0], spans=whole), *found.tested[1:]))
+    spans = stretches(single, 0, 4)
+    assert len({start for start, _ in spans}) == 4
+    assert max(end for _, end in spans) <= single.taught[0].end + 1e-9
 
 
 def test_names_cannot_end_the_script(tmp_path: Path):
@@ -93,6 +126,25 @@ def test_pictures_stand_beside_each_other():
     left, middle, right = np.split(picture.astype(np.float64), 3, axis=1)
     assert 0 < np.abs(left - middle).mean() < np.abs(right - middle).mean()  # keyposes are nearer
     assert dimensions_picture(found, 0, telling_frame(found, 0), (60, 80)).shape == (80, 300, 3)
+
+
+def test_both_sides_are_shown_each_picked_against_one_space():
+    found, size = spaces_of(2), (60, 80)
+    against = [most_different(found), most_different(found, "uniform", "keyposes")]
+    assert against[0] != against[1]
+    off = {
+        name: [np.linalg.norm(found.poses(w, name)[f] - found.vectors[w].values[f]) for w, f in against]
+        for name in SPACES
+    }
+    assert off["keyposes"][0] < off["uniform"][0]
+    assert off["keyposes"][1] > off["uniform"][1]
+    shown = both_sides(found, None, size)
+    for picked, part in zip(against, (shown[:, :180], shown[:, -180:]), strict=True):
+        assert np.array_equal(part[CAPTION:], posture_picture(found, *picked, size))
+        assert part[:CAPTION].min() < 150  # how it was picked
+    one = both_sides(found, [None, against[1]], size)
+    assert one[CAPTION:, :180].min() == 255
+    assert np.array_equal(one[CAPTION:, -180:], shown[CAPTION:, -180:])
 
 
 def test_figures_are_the_same_bytes_each_time(tmp_path: Path):

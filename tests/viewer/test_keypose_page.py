@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +66,18 @@ def test_the_energy_is_that_which_was_looked_at(page: dict[str, Any]):
     assert np.abs(world * max(found.energy.world.max(), found.energy.local.max()) - there).max() < 0.02
     count = np.isfinite(found.candidates["local"]).sum()
     assert len(page["energy"]["local_candidates"]) == count
+
+
+def test_where_the_bodys_frame_is_not_known_there_is_no_local_energy(tmp_path: Path):
+    clip = dancers(1)[0]
+    found = find_keyposes(clip.motion, clip.beats)
+    alone = replace(
+        found, energy=replace(found.energy, local=np.zeros(0)), candidates={"global": found.candidates["global"]}
+    )
+    write_keypose_page(tmp_path / "page.html", alone, clip.motion)
+    energy = data_in((tmp_path / "page.html").read_bytes())["energy"]
+    assert (energy["local"]["base64"], energy["local_candidates"]) == ("", [])
+    assert unpack_curve(CurveData(**energy["world"])).max() == 1.0
 
 
 def test_where_a_pose_faces_is_told(swinger: Motion):

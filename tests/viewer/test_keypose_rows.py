@@ -52,6 +52,19 @@ def test_a_long_cycle_is_shown_in_parts_and_its_cycles_stay_under_each_other():
     assert max(row.numbers.max() for row in rows) == 64
 
 
+def test_a_cycle_longer_than_the_song_is_one_and_ends_with_it():
+    at = np.arange(3, 37, 2)
+    rows = rows_of(at, beats(37), NONE, 10**30)
+    assert [row.title for row in rows] == [row.title for row in rows_of(at, beats(37), NONE, 37)]
+    assert keypose_numbers(at, beats(37), NONE, 10**30).tolist() == list(range(1, len(at) + 1))
+
+
+def test_the_last_cycle_ends_with_the_beats():
+    rows = rows_of(np.arange(1, 37, 2), beats(37), NONE, 8)
+    assert rows[-1].title == "cycle 5 · beats 34–37"
+    assert rows[-1].end - rows[-1].first == 8  # and still stands under the others
+
+
 def test_a_few_keyposes_have_the_row_for_themselves():
     (row,) = rows_of(np.array([3, 5]), beats(200), NONE)
     assert row.end - row.first < 8

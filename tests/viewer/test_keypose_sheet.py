@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -10,12 +11,14 @@ import numpy as np
 import pytest
 from matplotlib import image
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 from folk_dancers import dancers
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.candidates import Thresholds
 from onbeat.keyposes.extract import Keyposes, Options, find_keyposes
 from onbeat.motion import Markers, Motion
+from onbeat.viewer.keypose_drawing import LOOKS
 from onbeat.viewer.keypose_poses import fitted, pose_pictures, poses_at
 from onbeat.viewer.keypose_sheet import A4, DPI, keypose_pages, save_pages, write_keypose_sheet
 
@@ -108,6 +111,32 @@ def test_ten_minutes_are_pages_of_a_page_each():
     assert all(len(page.axes[0].images) <= 36 for page in made)
 
 
+def test_png_and_svg_are_twelve_pages_at_most_and_a_pdf_is_all(tmp_path: Path):
+    many = [Figure(figsize=(1, 1)) for _ in range(14)]
+    written = save_pages(many, tmp_path / "s.png")
+    assert [path.name for path in written] == ["s.png", *(f"s_{n}.png" for n in range(2, 13))]
+    (pdf,) = save_pages(many, tmp_path / "s.pdf")
+    assert pdf.read_bytes().count(b"/Type /Page ") == 14
+    for other in ("s_2.svg", "s_14.png", "t_3.png", "s_x.png"):
+        (tmp_path / other).write_bytes(b"of somebody else")
+    save_pages(many[:2], tmp_path / "s.png")
+    left = sorted(path.name for path in tmp_path.iterdir())
+    assert left == ["s.pdf", "s.png", "s_14.png", "s_2.png", "s_2.svg", "s_x.png", "t_3.png"]
+
+
+def test_where_the_bodys_frame_is_not_known_there_is_one_graph():
+    found, motion = folk()
+    energy = replace(found.energy, local=np.zeros(0))
+    sources = ("global",) * len(found)
+    alone = replace(found, energy=energy, sources=sources, candidates={"global": found.candidates["global"]})
+    both, one = keypose_pages(found, motion)[0], keypose_pages(alone, motion)[0]
+    assert not any("local" in word for word in words(one))
+    assert "global: rest in the world" in words(one)
+    assert LOOKS["local"].colour not in {line.get_color() for line in one.axes[0].lines}
+    assert len(one.axes[0].images) == len(both.axes[0].images)
+    assert overlaps(boxes(one)) == 0
+
+
 def test_no_keypose_and_two_beats_are_drawn(tmp_path: Path):
     _, motion = folk()
     none = find_keyposes(motion, np.array([1.0, 1.5]), options=Options(thresholds=Thresholds(0.0, 99.0)))
@@ -116,12 +145,14 @@ def test_no_keypose_and_two_beats_are_drawn(tmp_path: Path):
     assert b"<svg" in path.read_bytes()
 
 
-@pytest.mark.parametrize("method", ["shiratori2004", "hands"])
-def test_other_methods_are_drawn(method: str):
+@pytest.mark.parametrize(
+    ("method", "rest"), [("shiratori2004", "rest of hands and feet"), ("hands", "rest of the hands")]
+)
+def test_other_methods_are_drawn(method: str, rest: str):
     clip = dancers(1)[0]
     found = find_keyposes(clip.motion, clip.beats, method)
     (page,) = keypose_pages(found, clip.motion)[:1]
-    assert any("hands" in word for word in words(page))
+    assert any(rest in word for word in words(page))
 
 
 def test_wrong_endings_and_cycles_are_refused(tmp_path: Path):

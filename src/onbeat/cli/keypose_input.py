@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import cyclopts
@@ -13,12 +15,14 @@ from rich.text import Text
 
 from onbeat._shapes import Times
 from onbeat.errors import MetricError, OnbeatError
-from onbeat.formats.read import read_file
+from onbeat.formats.read import read_file, read_motion
 from onbeat.keyposes.extract import Options, Reading
+from onbeat.keyposes.marks import read_marks
 from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.keyposes.thresholds import Example
 from onbeat.motion import Markers, Motion
-from onbeat.music import listen
+from onbeat.motion.role_file import roles_beside
+from onbeat.music import Song, listen
 from onbeat.music.beat_files import read_beats
 
 MARKS = ".keyposes.csv"
@@ -52,23 +56,43 @@ NO_BEATS = BeatFlags()
 """None was given."""
 
 
-def read_dance(path: Path, flags: BeatFlags) -> tuple[Motion | Markers, Times, Times]:
-    """A motion or markers, the beats on its clock, and those of them that are known to be downbeats."""
+def read_dance(path: Path, flags: BeatFlags, local: bool = True) -> tuple[Motion | Markers, Times, Times]:
+    """A motion or markers, the beats on its clock, and those of them that are known to be downbeats.
+
+    Without ``local`` markers need no known labels.
+    """
     if flags.music and flags.beats:
         raise OnbeatError(f"--music {flags.music} and --beats {flags.beats}: give one of them")
-    source = read_file(path, fps=flags.fps)
+    if not math.isfinite(flags.song_at) or (flags.song_at and not (flags.music or flags.beats)):
+        raise OnbeatError(
+            f"--song-at {flags.song_at:g}: give the second of the motion at which --music or --beats begin"
+        )
+    source = _source(path, flags.fps)
     if flags.beats:
         listed = read_beats(flags.beats)
         down = listed.times[listed.places == 1] if listed.places is not None else np.zeros(0)
         return source, listed.times + flags.song_at, down + flags.song_at
     if flags.music:
-        with Console(stderr=True).status(Text(f"hearing {flags.music.name}")):
-            song = listen(flags.music)
+        song = _heard(flags.music)
         return source, song.beats + flags.song_at, song.downbeats + flags.song_at
-    found = motion_beats(source)
+    found = motion_beats(source, local)
     tempo = 60.0 / float(np.median(np.diff(found)))
     print(f"no music given: {len(found)} beats from the motion itself, {tempo:.0f} a minute", file=sys.stderr)  # noqa: T201
     return source, found, np.zeros(0)
+
+
+def _source(path: Path, fps: float | None) -> Motion | Markers:
+    """What a file holds; markers of which a roles file tells the sites become the body that it tells of."""
+    source = read_file(path, fps=fps)
+    told = roles_beside(path) if isinstance(source, Markers) else None
+    return source if told is None else read_motion(path, fps=fps)
+
+
+@cache
+def _heard(music: Path) -> Song:
+    """The song, heard once for all motions."""
+    with Console(stderr=True).status(Text(f"hearing {music.name}")):
+        return listen(music)
 
 
 def read_example(path: Path, options: Options, song_at: float = 0.0, fps: float | None = None) -> Example:
@@ -77,13 +101,15 @@ def read_example(path: Path, options: Options, song_at: float = 0.0, fps: float 
     Raises
     ------
     MetricError
-        If there are no marks beside it.
+        If there are no marks beside it, or no beats and no song.
     """
     marks = path.with_name(path.stem + MARKS)
     if not marks.is_file():
         raise MetricError(f"no {marks} beside {path.name}; write the seconds of its keyposes there, one a line")
-    source, beats, _ = read_dance(path, _beside(path, song_at, fps))
-    return Example(Reading(source, beats, options), read_beats(marks).times, path.name)
+    flags = _beside(path, song_at, fps)
+    source, beats, _ = read_dance(path, flags, "local" in options.order)
+    truth = read_marks(marks, (len(source) - 1) / source.fps)
+    return Example(Reading(source, beats, options), truth, path.name)
 
 
 def _beside(path: Path, song_at: float, fps: float | None) -> BeatFlags:
@@ -91,4 +117,8 @@ def _beside(path: Path, song_at: float, fps: float | None) -> BeatFlags:
     if beats.is_file():
         return BeatFlags(beats=beats, song_at=song_at, fps=fps)
     song = next((found for ending in SOUNDS if (found := path.with_suffix(ending)).is_file()), None)
+    if song is None:
+        raise MetricError(
+            f"no {beats.name} and no song {path.stem}.wav beside {path.name}; one of them has to give the beats"
+        )
     return BeatFlags(music=song, song_at=song_at, fps=fps)

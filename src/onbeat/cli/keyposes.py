@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import cyclopts
 import msgspec
@@ -21,21 +21,21 @@ from onbeat.files import write_atomically
 from onbeat.keyposes.candidates import Thresholds
 from onbeat.keyposes.document import keyposes_document
 from onbeat.keyposes.evaluate import compare
-from onbeat.keyposes.extract import DEFAULT, Keyposes, Options, find_keyposes
-from onbeat.keyposes.matching import TOLERANCE, Score
+from onbeat.keyposes.extract import Keyposes, Options, find_keyposes
+from onbeat.keyposes.matching import TOLERANCE, Score, score
+from onbeat.keyposes.threshold_file import DEFAULTS, VERSION, LearnedDocument, read_thresholds
 from onbeat.keyposes.thresholds import Example, learn, sweep
 from onbeat.motion import Markers, Motion
 
 keyposes_app = cyclopts.App(
     name="keyposes", help="Find the keyposes of a dance: the poses in which it rests on the beat."
 )
-VERSION = 1
 
 
 @cyclopts.Parameter(name="*")
 @dataclass(frozen=True)
 class EnergyFlags:
-    """How keyposes are looked for.
+    """How keyposes are looked for; what is not said is as in the thresholds file, else as by default.
 
     Parameters
     ----------
@@ -45,17 +45,25 @@ class EnergyFlags:
         ``global-local`` (the default), ``local-global``, ``global`` or ``local``: whose rest counts first.
     weights
         ``uniform`` (the default) or ``mass``.
+    window
+        Share of a beat within which a rest belongs to the beat: 0.5 (the default) gives each rest to its nearest beat.
     """
 
-    energy: str = "rms"
-    order: str = "global-local"
-    weights: str = "uniform"
+    energy: Literal["rms", "sum", "paper"] | None = None
+    order: Literal["global-local", "local-global", "global", "local"] | None = None
+    weights: Literal["uniform", "mass"] | None = None
+    window: float | None = None
 
-    def options(self, thresholds: Thresholds = DEFAULT) -> Options:
-        """As the methods take them."""
-        return Options(self.energy, self.order, self.weights, thresholds)
+    def over(self, base: Options) -> Options:
+        """What is said here, the rest as in ``base``."""
+        if self.window is not None and not 0.0 < self.window <= 0.5:
+            raise OnbeatError(f"--window {self.window:g} of a beat: give more than 0 and at most 0.5")
+        told = {"kind": self.energy, "order": self.order, "weights": self.weights, "window": self.window}
+        return replace(base, **{name: value for name, value in told.items() if value is not None})
 
 
+SCORES = 1
+"""Version of the scores as JSON."""
 USUAL = EnergyFlags()
 """None was given."""
 
@@ -66,7 +74,7 @@ def find_command(
     *,
     flags: BeatFlags = NO_BEATS,
     output: Annotated[Path | None, cyclopts.Parameter(name=["-o", "--output"])] = None,
-    method: str = "energy",
+    method: Literal["energy", "paper2009", "shiratori2004", "hands"] = "energy",
     looks: EnergyFlags = USUAL,
     t1: float | None = None,
     t2: float | None = None,
@@ -104,52 +112,55 @@ def find_command(
     """
     if cycle is not None and cycle < 1:
         raise OnbeatError(f"a cycle of {cycle} beats cannot be; give 1 or more")
-    chosen = _thresholds(t1, t2, thresholds)
-    with warnings_as_lines():
-        source, beats, downbeats = read_dance(motion, flags)
-        found = find_keyposes(source, beats, method, looks.options(chosen))
-    document = keyposes_document(found, motion.stem)
-    if output:
-        _write(output, found, source, document.to_json(), motion.stem, downbeats, cycle)
+    options = _options(looks, t1, t2, thresholds)
+    _check_method(method, looks, t1, t2, thresholds)
+    with warnings_as_lines(), Stages() as stages:
+        stages("reading", 0.0, motion.name)
+        source, beats, downbeats = read_dance(motion, flags, "local" in options.order or method != "energy")
+        stages("finding", 0.0)
+        found = find_keyposes(source, beats, method, options)
+        document = keyposes_document(found, motion.stem, options if method == "energy" else None)
+        if output:
+            _write(output, found, source, document.to_json(), motion.stem, downbeats, cycle, stages)
     if json:
         sys.stdout.write(document.to_json().decode())
     else:
         _print_found(found, motion.name)
 
 
-def _thresholds(t1: float | None, t2: float | None, file: Path | None) -> Thresholds:
+def _check_method(method: str, looks: EnergyFlags, t1: float | None, t2: float | None, file: Path | None) -> None:
+    """Refuse what a method does not look at, rather than pass over it."""
+    told = [f"--{name}" for name in ("energy", "order", "window") if getattr(looks, name) is not None]
+    if method in ("hands", "shiratori2004"):
+        told += ["--weights"] if looks.weights else []
+        told += [name for name, value in (("--t1", t1), ("--t2", t2), ("--thresholds", file)) if value is not None]
+    if method != "energy" and told:
+        raise OnbeatError(
+            f"--method {method} does not look at {', '.join(told)}; leave them out, or use the method energy"
+        )
+
+
+def _options(looks: EnergyFlags, t1: float | None, t2: float | None, file: Path | None) -> Options:
     """What is told, over what a file says, over the default."""
-    base = DEFAULT
+    base = DEFAULTS
     if file is not None:
         try:
-            base = msgspec.json.decode(file.read_bytes(), type=_Learned).thresholds
+            base = read_thresholds(file.read_bytes(), str(file))
         except OSError as error:
             raise OnbeatError(
                 f"cannot read {file}: {error.strerror}; give what `onbeat keyposes learn -o` wrote"
-            ) from None
-        except msgspec.MsgspecError as error:
-            raise OnbeatError(
-                f"{file} holds no thresholds: {error}; give what `onbeat keyposes learn -o` wrote"
             ) from None
     chosen = Thresholds(base.t1 if t1 is None else t1, base.t2 if t2 is None else t2)
     if not all(np.isfinite(value) and value >= 0.0 for value in chosen):
         raise OnbeatError(
             f"thresholds {chosen.t1:g} and {chosen.t2:g} cannot be; give 0 or more, in units of the mean energy"
         )
-    return chosen
-
-
-class _Learned(msgspec.Struct):
-    """``thresholds.json``."""
-
-    version: int
-    thresholds: Thresholds
-    held_out_f: float | None = None
+    return looks.over(replace(base.options(), thresholds=chosen))
 
 
 def _write(
     folder: Path, found: Keyposes, source: Motion | Markers, document: bytes, title: str, downbeats: np.ndarray,
-    cycle: int | None,
+    cycle: int | None, stages: Stages,
 ) -> None:  # fmt: skip
     from onbeat.viewer.keypose_page import write_keypose_page
     from onbeat.viewer.keypose_poses import fitted
@@ -162,9 +173,11 @@ def _write(
     write_atomically(folder / "keyposes.json", document)
     times = "".join(f"{time:.6f}\n" for time in found.times)
     write_atomically(folder / "keyposes.csv", f"# seconds\n{times}".encode())
+    stages("drawing", 0.0, "the body")
     shown = fitted(source)
     pages = keypose_pages(found, shown, title=title, downbeats=downbeats, cycle=cycle)
-    for name in ("keyposes.png", "keyposes.svg", "keyposes.pdf"):
+    for done, name in enumerate(("keyposes.png", "keyposes.svg", "keyposes.pdf")):
+        stages("drawing", 0.2 + 0.25 * done, name)
         save_pages(pages, folder / name)
     write_keypose_page(folder / "keyposes.html", found, shown, title=title, downbeats=downbeats, cycle=cycle)
 
@@ -177,24 +190,29 @@ def _print_found(found: Keyposes, name: str) -> None:
         off = 1000.0 * (time - found.song_beats[beat])
         table.add_row(str(number), f"{time:.3f}", str(beat + 1), f"{off:+.0f} ms", source)
     screen = Console()
-    screen.print(Text(f"{name}: {len(found)} keyposes on {len(found.song_beats)} beats, by {found.method}"))
+    screen.print(
+        Text(
+            f"{name}: {len(found)} {'keypose' if len(found) == 1 else 'keyposes'} on {len(found.song_beats)} beats, "
+            f"by {found.method}"
+        )
+    )
     if len(found):
         screen.print(table)
     else:
         screen.print(Text("the body never rests near a beat: try a higher --t1, or check --song-at"))
 
 
-def _examples(paths: list[Path], looks: EnergyFlags, song_at: float, fps: float | None) -> list[Example]:
+def _examples(paths: list[Path], options: Options, song_at: float, fps: float | None) -> list[Example]:
     with warnings_as_lines(), Stages() as stages:
         read: list[Example] = []
         for done, path in enumerate(paths):
             stages("reading", done / len(paths), path.name)
-            read.append(read_example(path, looks.options(), song_at, fps))
+            read.append(read_example(path, options, song_at, fps))
     return read
 
 
-def _score(score: Score) -> str:
-    return f"precision {score.precision:.2f}, recall {score.recall:.2f}, F {score.f:.2f}"
+def _score(had: Score) -> str:
+    return f"precision {had.precision:.2f}, recall {had.recall:.2f}, F {had.f:.2f}"
 
 
 Motions = Annotated[list[Path], cyclopts.Parameter(negative=(), json_list=False)]
@@ -231,28 +249,38 @@ def learn_command(
     fps
         Frames a second of motion files that store none.
     """
-    learned = learn(_examples(examples, looks, song_at, fps), tolerance)
+    options = looks.over(DEFAULTS.options())
+    read = _examples(examples, options, song_at, fps)
+    learned = learn(read, tolerance)
     (low1, high1), (low2, high2) = learned.plateau
     screen = Console()
     table = Table(box=None, pad_edge=False, show_header=False)
+    every = float(np.mean([score(one.reading.beats, one.truth, tolerance).f for one in read]))
     rows = (
         ("T1", f"{learned.thresholds.t1:g} of the mean energy; as good from {low1:g} to {high1:g}"),
         ("T2", f"{learned.thresholds.t2:g} of the mean energy; as good from {low2:g} to {high2:g}"),
         ("held out", _score(learned.held_out)),
+        ("every beat", f"F {every:.2f}" + (": better here; see --tolerance" if every > learned.held_out.f else "")),
     )
     for name, value in rows:
         table.add_row(Text(name, "dim"), Text(value))
     screen.print(table)
     if output:
-        t1, t2 = learned.thresholds
-        document = {
-            "version": VERSION,
-            "thresholds": [t1, t2],
-            "held_out_f": round(learned.held_out.f, 6),
-            "plateau": {"t1": [low1, high1], "t2": [low2, high2]},
-            "examples": len(examples),
-        }
-        write_atomically(output, msgspec.json.format(msgspec.json.encode(document), indent=1) + b"\n")
+        write_atomically(
+            output,
+            LearnedDocument(
+                VERSION,
+                *learned.thresholds,
+                energy=options.kind,
+                order=options.order,
+                weights=options.weights,
+                window=options.window,
+                held_out_f=round(learned.held_out.f, 6),
+                plateau_t1=[low1, high1],
+                plateau_t2=[low2, high2],
+                examples=len(examples),
+            ).to_json(),
+        )
 
 
 @keyposes_app.command(name="evaluate")
@@ -261,6 +289,7 @@ def evaluate_command(
     /,
     *,
     tolerance: float = TOLERANCE,
+    looks: EnergyFlags = USUAL,
     thresholds: Path | None = None,
     plot: Path | None = None,
     song_at: float = 0.0,
@@ -278,6 +307,8 @@ def evaluate_command(
         Motion files with their keyposes and beats beside them, as for ``onbeat keyposes learn``.
     tolerance
         Seconds by which a keypose may be off.
+    looks
+        How keyposes are looked for.
     thresholds
         A file that ``onbeat keyposes learn`` wrote.
     plot
@@ -291,9 +322,12 @@ def evaluate_command(
     json
         Print the scores as JSON on stdout instead of tables.
     """
-    chosen = _thresholds(None, None, thresholds)
-    read = _examples(examples, USUAL, song_at, fps)
-    rows = compare(read, np.random.default_rng(seed), tolerance, chosen)
+    if seed < 0:
+        raise OnbeatError(f"--seed {seed}: give 0 or more")
+    options = _options(looks, None, None, thresholds)
+    chosen = options.thresholds
+    read = _examples(examples, options, song_at, fps)
+    rows = compare(read, np.random.default_rng(seed), tolerance, options)
     swept = sweep(read, tolerance=tolerance)
     if plot:
         from onbeat.viewer.threshold_figure import write_threshold_figure
@@ -304,7 +338,7 @@ def evaluate_command(
             row.name: {**{k: round(v, 4) for k, v in row.score._asdict().items()}, "chance": round(row.chance, 4)}
             for row in rows
         }
-        document = {"version": VERSION, "tolerance": tolerance, "thresholds": list(chosen), "scores": scores}
+        document = {"version": SCORES, "tolerance": tolerance, "thresholds": list(chosen), "scores": scores}
         sys.stdout.write(msgspec.json.format(msgspec.json.encode(document), indent=1).decode() + "\n")
         return
     table = Table(box=None, pad_edge=False)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import cyclopts
+import msgspec
 import numpy as np
 from rich.console import Console
 from rich.table import Table
@@ -22,11 +25,13 @@ from onbeat.formats import read_motion, write_motion
 from onbeat.formats.read import fitted
 from onbeat.keyposes.extract import find_keyposes
 from onbeat.keyposes.judging import SPACES, AnswersDocument, trials, verdict_of
-from onbeat.keyposes.lowdim import LowDimensional, low_dimensional
-from onbeat.keyposes.lowdim_document import LowdimDocument, document
+from onbeat.keyposes.lowdim import LowDimensional, low_dimensional, people_told
+from onbeat.keyposes.lowdim_document import ErrorDocument, LowdimDocument, document
 from onbeat.motion import Markers, Motion
 from onbeat.music.beat_files import read_beats
 
+MOST_REPEATS = 10
+"""Trials of each motion on a page; more would be a large file, and tire people."""
 Files = Annotated[list[Path] | None, cyclopts.Parameter(negative=(), json_list=False)]
 
 
@@ -41,6 +46,7 @@ def lowdim_command(
     output: Annotated[Path | None, cyclopts.Parameter(name=["-o", "--output"])] = None,
     judged: Annotated[list[Path] | None, cyclopts.Parameter(negative=(), consume_multiple=True)] = None,
     seed: int = 0,
+    repeats: int = 1,
     json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
 ) -> None:
     """Rebuild dances in a few dimensions, those of their keyposes, and compare with uniform sampling.
@@ -65,16 +71,25 @@ def lowdim_command(
         Answers that were saved from ``judge.html``: says how people chose, and whether that is chance.
     seed
         Draws the order of the trials on the page, and which is A.
+    repeats
+        How often each person's motion is asked for, each time another stretch of it.
     json
-        Print ``lowdim.json`` on stdout instead of a table.
+        Print ``lowdim.json``, or what was ``judged``, on stdout instead of a table.
     """
     if judged:
         if motions:
             raise MetricError(f"--judged reads answers alone; leave out {motions[0]}, or --judged")
-        _print_verdict(judged)
+        if output is not None:
+            raise MetricError(f"--judged writes nothing to {output}; leave out -o, and keep what is printed")
+        _print_verdict(judged, json)
         return
     if not motions:
         raise MetricError("no motions; give files of one dance, one of each person, or --judged with saved answers")
+    if seed < 0:
+        raise MetricError(f"--seed {seed} cannot be; give 0 or more")
+    if not 1 <= repeats <= MOST_REPEATS:
+        raise MetricError(f"--repeats {repeats} cannot be; give 1 to {MOST_REPEATS}")
+    _refuse_twice(motions)
     with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
         read = [_read(path, flags, stages, done / len(motions)) for done, path in enumerate(motions)]
         stages("spaces", 0.0)
@@ -83,17 +98,30 @@ def lowdim_command(
         )
         told = document(found)
         if output is not None:
-            _write(make_folder(output), found, told, stages, seed)
+            _write(make_folder(output), found, told, stages, (seed, repeats))
     if json:
         sys.stdout.write(told.to_json().decode())
     else:
         _print(found, told)
 
 
+def _refuse_twice(paths: list[Path]) -> None:
+    seen: set[str] = set()
+    for path in paths:
+        if (file := os.path.realpath(path)) in seen:
+            raise MetricError(f"{path} is given twice; give one motion of each person")
+        seen.add(file)
+
+
 def _names(paths: list[Path]) -> list[str]:
-    """A name for each motion: of its file, with its folder's where several have it."""
+    """A name for each motion: of its file, with its folder's where several have it, numbered where that is one, too."""
     stems = [path.stem for path in paths]
-    return [path.stem if stems.count(path.stem) == 1 else f"{path.resolve().parent.name}_{path.stem}" for path in paths]
+    names: list[str] = []
+    for path in paths:
+        name = path.stem if stems.count(path.stem) == 1 else f"{path.resolve().parent.name}_{path.stem}"
+        numbered = (name if n == 1 else f"{name} ({n})" for n in itertools.count(1))
+        names.append(next(one for one in numbered if one not in names))
+    return names
 
 
 def _read(path: Path, flags: BeatFlags, stages: Stages, share: float) -> tuple[Motion, Times]:
@@ -107,7 +135,7 @@ def _read(path: Path, flags: BeatFlags, stages: Stages, share: float) -> tuple[M
     return fitted(source, path).motion if isinstance(source, Markers) else source, keyposes
 
 
-def _write(folder: Path, found: LowDimensional, told: LowdimDocument, stages: Stages, seed: int) -> None:
+def _write(folder: Path, found: LowDimensional, told: LowdimDocument, stages: Stages, drawn: tuple[int, int]) -> None:
     from onbeat.viewer.judge_page import write_judge_page
     from onbeat.viewer.lowdim_figures import write_lowdim_figures
     from onbeat.viewer.lowdim_pictures import write_lowdim_pictures
@@ -126,41 +154,62 @@ def _write(folder: Path, found: LowDimensional, told: LowdimDocument, stages: St
     write_lowdim_figures(folder, found)
     stages("figures", 0.5, "pictures")
     write_lowdim_pictures(folder, found)
-    people = [one.person for one in found.taught]
-    write_judge_page(folder / "judge.html", found, trials(people, np.random.default_rng(seed)))
+    people, (seed, repeats) = [one.person for one in found.taught], drawn
+    write_judge_page(folder / "judge.html", found, trials(people, np.random.default_rng(seed), repeats))
 
 
 def _print(found: LowDimensional, told: LowdimDocument) -> None:
     table = Table("", "keyposes", "uniform", "ratio", box=None, pad_edge=False)
     for column in table.columns[1:]:
         column.justify = "right"
-    at = found.dims - 1
-    shares = [space.cumulative[at] for space in told.spaces]
+    shares = [space.cumulative[found.dims - 1] for space in told.spaces]
     table.add_row("variance of its own poses", f"{shares[0]:.1%}", f"{shares[1]:.1%}", "")
     for row in told.errors:
-        ours, theirs = 1000 * row.keyposes[at], 1000 * row.uniform[at]
-        unseen = {"all": "all frames", "rest": "frames at rest", "keyposes": "keyposes"}[row.of]
-        title = f"error, unseen {row.unseen}: {unseen}"
-        table.add_row(title, f"{ours:.1f} mm", f"{theirs:.1f} mm", f"{ours / theirs:.2f}" if theirs > 0 else "")
+        table.add_row(*_error_row(row, found.dims))
     kinds = {"through": "bone through bone", "beyond": "joint beyond its range", "stretched": "bone length off by 10 %"}
     for kind, title in kinds.items():
-        table.add_row(title, *(f"{getattr(space, kind):.1%}" for space in told.spaces), "")
+        table.add_row(f"as points: {title}", *(f"{getattr(space, kind):.1%}" for space in told.spaces), "")
     most = len(found.spaces["keyposes"])
     screen = Console()
-    screen.print(Text(f"{len(found.motions)} people, {told.poses} poses, {found.dims} of {most} dimensions"))
+    screen.print(Text(f"{people_told(len(found.motions))}, {told.poses} poses, {found.dims} of {most} dimensions"))
     screen.print(table)
+    fewest = min(len(row.keyposes) for row in told.errors)
+    if fewest < found.dims:
+        less = f"{fewest} dimension{'s' * (fewest != 1)}"
+        screen.print(Text(f"–: without the person who is tested the others' poses span but {less}"))
 
 
-def _print_verdict(paths: list[Path]) -> None:
-    documents: list[AnswersDocument] = []
+def _error_row(row: ErrorDocument, dims: int) -> tuple[str, str, str, str]:
+    """An error's title, both spaces' and their ratio; dashes where the space of the other people has fewer dimensions.
+
+    A space without the person who is tested is of fewer poses, so that it may not have as many.
+    """
+    tested = {"frames": "unseen frames", "between": "between taught poses", "people": "unseen people"}[row.unseen]
+    poses = {"all": "all frames", "rest": "frames at rest", "keyposes": "keyposes"}[row.of]
+    title = f"error, {tested}: {poses}"
+    if len(row.keyposes) < dims:
+        return title, "–", "–", ""
+    ours, theirs = 1000 * row.keyposes[dims - 1], 1000 * row.uniform[dims - 1]
+    return title, f"{ours:.1f} mm", f"{theirs:.1f} mm", f"{ours / theirs:.2f}" if theirs > 0 else ""
+
+
+def _print_verdict(paths: list[Path], json: bool) -> None:
+    documents: dict[Path, AnswersDocument] = {}
     for path in paths:
         try:
-            documents.append(AnswersDocument.from_json(path.read_bytes(), str(path)))
+            answers = AnswersDocument.from_json(path.read_bytes(), str(path))
         except OSError as error:
             raise MetricError(f"cannot read {path}: {error.strerror or error}; save it from judge.html") from None
-    found = verdict_of(documents)
-    share = found.chosen / found.trials
+        for other, known in documents.items():
+            if known == answers:
+                raise MetricError(f"{path} holds the same answers as {other}; give the answers of each person once")
+        documents[path] = answers
+    found = verdict_of(documents.values())
+    if json:
+        sys.stdout.write(msgspec.json.format(msgspec.json.encode(found._asdict()), indent=1).decode() + "\n")
+        return
     print(  # noqa: T201
-        f"{found.chosen} of {found.trials} chose keyposes ({share:.0%}; 95 % of such studies lie in "
-        f"{found.low:.0%} to {found.high:.0%}); by chance p = {found.p:.2g} (exact binomial test, two-sided)"
+        f"{found.chosen} of {found.trials} chose keyposes ({found.chosen / found.trials:.0%}; 95 % confidence interval "
+        f"of the true share: {found.low:.0%} to {found.high:.0%}); by chance p = {found.p:.2g} (exact binomial test, "
+        "two-sided)"
     )

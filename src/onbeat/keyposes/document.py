@@ -7,7 +7,8 @@ from typing import Annotated
 import msgspec
 
 from onbeat.errors import PlanError
-from onbeat.keyposes.extract import Keyposes
+from onbeat.keyposes.decoding import decoded
+from onbeat.keyposes.extract import Keyposes, Options
 
 VERSION = 1
 
@@ -42,6 +43,9 @@ class KeyposesDocument(msgspec.Struct, frozen=True):
     beats: Annotated[list[float], Said(description="the beats that fall into the motion")] = []
     method: Annotated[str, Said(description="that found them")] = "energy"
     motion: Annotated[str, Said(description="the motion's name")] = ""
+    energy: Annotated[str, Said(description="`rms`, `sum` or `paper`; empty where the method has none")] = ""
+    order: Annotated[str, Said(description="whose rest counts first, likewise")] = ""
+    weights: Annotated[str, Said(description="`uniform` or `mass`, likewise")] = ""
 
     def to_json(self) -> bytes:
         """The document as JSON bytes."""
@@ -57,21 +61,12 @@ class KeyposesDocument(msgspec.Struct, frozen=True):
         Traceback (most recent call last):
         onbeat.errors.PlanError: keyposes.json: version 9; this onbeat reads version 1
         """
-        try:
-            version = msgspec.json.decode(data, type=_Version).version
-            if version != VERSION:
-                raise PlanError(f"{source}: version {version}; this onbeat reads version {VERSION}")
-            return msgspec.json.decode(data, type=cls)
-        except msgspec.MsgspecError as error:
-            raise PlanError(f"{source} is not a document of keyposes: {error}") from None
+        return decoded(data, cls, VERSION, source, "a document of keyposes", PlanError)
 
 
-class _Version(msgspec.Struct):
-    version: int
-
-
-def keyposes_document(keyposes: Keyposes, motion: str = "") -> KeyposesDocument:
-    """The document of some keyposes, times rounded to microseconds."""
+def keyposes_document(keyposes: Keyposes, motion: str = "", options: Options | None = None) -> KeyposesDocument:
+    """The document of some keyposes, times rounded to microseconds; ``options`` as they were found with."""
+    looked = () if options is None else (options.kind, options.order, options.weights)
     rows = zip(
         keyposes.times.tolist(), keyposes.frames.tolist(), keyposes.beats.tolist(), keyposes.sources, strict=True
     )
@@ -83,4 +78,5 @@ def keyposes_document(keyposes: Keyposes, motion: str = "") -> KeyposesDocument:
         beats=[round(beat, 6) for beat in keyposes.song_beats.tolist()],
         method=keyposes.method,
         motion=motion,
+        **dict(zip(("energy", "order", "weights"), looked, strict=False)),
     )

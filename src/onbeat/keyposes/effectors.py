@@ -6,7 +6,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Ints, Times
 from onbeat.errors import BodyError
-from onbeat.keyposes.candidates import Thresholds, candidates, minima
+from onbeat.keyposes.candidates import Thresholds, candidates, minima, windows
 from onbeat.keyposes.energy import RATE, speed_at
 from onbeat.keyposes.points import Points
 from onbeat.motion.features import SMOOTHING, find_stops, merge_stops
@@ -36,8 +36,7 @@ def shiratori2004(points: Points, beats: Times, window: float) -> Times:
         curve = effector_speed(points, which)
         resting = minima(curve / max(float(curve.mean()), 1e-9))
         passes = (resting.values < SLOW) & (resting.values + resting.rises > FAST)
-        kept = type(resting)(*(column[passes] for column in resting))
-        found.append(candidates(kept, beats, Thresholds(np.inf, np.inf), window))
+        found.append(candidates(resting.chosen(passes), beats, Thresholds(np.inf, np.inf), window))
     return (found[0] + found[1]) / 2.0
 
 
@@ -48,6 +47,6 @@ def hand_stops(points: Points, beats: Times, window: float) -> Times:
     stops = merge_stops(find_stops(effector_speed(points, sides[0])), find_stops(effector_speed(points, sides[1])))
     if not len(stops):
         return np.full(len(beats), np.nan)
-    nearest = stops[np.abs(stops[None] - beats[:, None]).argmin(axis=1)]
-    gap = float(np.median(np.diff(beats)))
-    return np.where(np.abs(nearest - beats) <= window * gap, nearest, np.nan)
+    first, last = windows(beats, window)
+    near = stops[np.abs(stops[None] - beats[:, None]).argmin(axis=1)]
+    return np.where((near >= first) & (near < last), near, np.nan)

@@ -37,14 +37,13 @@ class Energy:
     Parameters
     ----------
     times : (N,) seconds at ``RATE``.
-    world, local : (N,) energy in the world and in the body-centre frame; their means over the motion are 1.
-    means : metres per second, what 1 stands for in ``world`` and ``local``.
+    world, local : (N,) energy in the world and in the body-centre frame; their means over the motion are 1. ``local``
+        is empty where that frame is not known.
     """
 
     times: Times
     world: Array
     local: Array
-    means: tuple[float, float] = (1.0, 1.0)
 
     def __post_init__(self) -> None:
         for name in ("times", "world", "local"):
@@ -69,13 +68,12 @@ def energy_of(points: Points, kind: str = "rms", smoothing: float = SMOOTHING) -
         raise BodyError(f"no energy {kind!r}; there are {', '.join(KINDS)}")
     times = np.arange(max(1, int(np.floor((len(points.positions) - 1) / points.fps * RATE + 1e-6)) + 1)) / RATE
     weights = points.seen * points.weights
-    curves, means = [], []
-    for paths in (points.positions, points.local()):
+    curves = [np.zeros(0), np.zeros(0)]
+    for which, paths in enumerate((points.positions, points.local()) if points.centred else (points.positions,)):
         curve = speed_at(times, paths, weights, kind, points.fps, smoothing)
         mean = float(curve.mean())
-        means.append(mean)
-        curves.append(curve / mean if mean > 1e-9 else np.zeros(len(curve)))
-    return Energy(times, curves[0], curves[1], (means[0], means[1]))
+        curves[which] = curve / mean if mean > 1e-9 else np.zeros(len(curve))
+    return Energy(times, curves[0], curves[1])
 
 
 def speed_at(times: Times, paths: Positions, weights: Array, kind: str, fps: float, smoothing: float) -> Array:

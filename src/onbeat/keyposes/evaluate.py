@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from onbeat._shapes import Times
-from onbeat.keyposes.candidates import Thresholds
 from onbeat.keyposes.extract import METHODS, PAPER, Keyposes, Options, find_keyposes
 from onbeat.keyposes.matching import TOLERANCE, Score, chance, score
 from onbeat.keyposes.thresholds import Example
+
+USUAL = Options()
 
 
 class Row(NamedTuple):
@@ -27,7 +28,7 @@ def compare(
     examples: Sequence[Example],
     rng: np.random.Generator,
     tolerance: float = TOLERANCE,
-    thresholds: Thresholds | None = None,
+    options: Options = USUAL,
 ) -> list[Row]:
     """Every method, the weights and energies of the default, and every beat taken for a keypose.
 
@@ -36,14 +37,13 @@ def compare(
     examples : dances whose keyposes are known.
     rng : of the random phases.
     tolerance : seconds.
-    thresholds : T1 and T2; the default's if none are given.
+    options : of the method by energy; the rows below it change one of them each.
     """
-    chosen = Options() if thresholds is None else Options(thresholds=thresholds)
-    variants: list[tuple[str, str, Options]] = [(name, name, chosen) for name in METHODS]
-    variants += [("energy, mass weights", "energy", replace(chosen, weights="mass"))]
-    variants += [(f"energy, {kind}", "energy", replace(chosen, kind=kind)) for kind in ("sum", PAPER.kind)]
+    variants: list[tuple[str, str, Options]] = [(name, name, options) for name in METHODS]
+    variants += [("energy, mass weights", "energy", replace(options, weights="mass"))]
+    variants += [(f"energy, {kind}", "energy", replace(options, kind=kind)) for kind in ("sum", PAPER.kind)]
     variants += [
-        (f"energy, {order}", "energy", replace(chosen, order=order)) for order in ("local-global", "global", "local")
+        (f"energy, {order}", "energy", replace(options, order=order)) for order in ("local-global", "global", "local")
     ]
     rows = [
         _row(name, [_found(example, method, options).times for example in examples], examples, rng, tolerance)

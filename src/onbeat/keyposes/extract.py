@@ -13,6 +13,7 @@ from onbeat.keyposes.candidates import WINDOW, Minima, Thresholds, candidates, m
 from onbeat.keyposes.effectors import hand_stops, shiratori2004
 from onbeat.keyposes.energy import RATE, Energy, energy_of
 from onbeat.keyposes.points import Points, body_points
+from onbeat.keyposes.rests import nearest_to_beat
 from onbeat.motion.markers import Markers
 from onbeat.motion.motion import Motion
 
@@ -35,6 +36,9 @@ class Options:
     weights : one of ``points.WEIGHTS``.
     thresholds : T1 and T2 in units of the mean energy.
     window : share of a beat within which a minimum belongs to a beat.
+    either : whether a rise of T2 on one side of a minimum is enough.
+    held : of the mean energy, by how much a body at rest may be over the minimum: of a pose that is held the moment
+        nearest to its beat is taken; 0 takes the minimum itself.
     """
 
     kind: str = "rms"
@@ -42,10 +46,16 @@ class Options:
     weights: str = "uniform"
     thresholds: Thresholds = DEFAULT
     window: float = WINDOW
+    either: bool = False
+    held: float = 0.02
 
 
-PAPER = Options(kind="paper")
-"""As printed in 2009."""
+PAPER = Options(kind="paper", window=0.25, either=True, held=0.0)
+"""As printed in 2009, as far as it is printed: smoothing and units of the thresholds are ours."""
+PERIODS = (0.2, 1.5)
+"""Seconds between beats beyond which the smoothing does not follow them."""
+CLOSEST = 0.25
+"""Of a beat: of two keyposes closer than this, the one farther from its beat is the same rest again."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +66,7 @@ class Keyposes:
     ----------
     times : (K,) seconds, increasing.
     beats : (K,) index of each one's beat.
-    sources : which energy's candidate each is: "global" or "local"; "hands" by other methods.
+    sources : which energy's candidate each is: "global" or "local"; "hands" or "effectors" by other methods.
     song_beats : (B,) seconds of the beats on the motion's clock.
     candidates : (B,) seconds by energy, NaN where a beat has none.
     energy : of the motion.
@@ -97,14 +107,23 @@ class Reading:
         self.source, self.options = source, options
         self.beats = beats_inside(beats, source)
         self.points = body_points(source, options.weights, "local" in options.order)
-        period = float(np.median(np.diff(self.beats)))
+        period = float(np.clip(np.median(np.diff(self.beats)), *PERIODS))
         self.energy = in_units(energy_of(self.points, options.kind, SMOOTHING_SHARE * period), self.beats)
-        self.minima: dict[str, Minima] = {"global": minima(self.energy.world), "local": minima(self.energy.local)}
+        self.minima: dict[str, Minima] = {"global": minima(self.energy.world)}
+        if self.points.centred:
+            self.minima["local"] = minima(self.energy.local)
 
     def keyposes(self, thresholds: Thresholds | None = None, method: str = "energy") -> Keyposes:
         """The keyposes by some thresholds, those of the options if none are given."""
         chosen = self.options.thresholds if thresholds is None else thresholds
-        found = {name: candidates(self.minima[name], self.beats, chosen, self.options.window) for name in self.minima}
+        window, either = self.options.window, self.options.either
+        curves = {"global": self.energy.world, "local": self.energy.local}
+        found = {
+            name: nearest_to_beat(
+                candidates(rests, self.beats, chosen, window, either), self.beats, curves[name], self.options.held
+            )
+            for name, rests in self.minima.items()
+        }
         times, sources = np.full(len(self.beats), np.nan), np.full(len(self.beats), "", object)
         for name in self.options.order.split("-"):
             free = np.isnan(times) & ~np.isnan(found[name])
@@ -114,8 +133,8 @@ class Reading:
     def taken(
         self, times: Times, sources: np.ndarray, found: Mapping[str, Times], thresholds: Thresholds, method: str
     ) -> Keyposes:
-        """Keyposes from a time for each beat (B,), NaN where it has none."""
-        at = np.flatnonzero(~np.isnan(times))
+        """Keyposes from a time for each beat (B,), NaN where it has none; what is found twice is kept once."""
+        at = once(times, self.beats)
         return Keyposes(
             times[at],
             at,
@@ -127,6 +146,25 @@ class Reading:
             method,
             self.source.fps,
         )
+
+
+def once(times: Times, beats: Times) -> Ints:
+    """The beats (K,) whose times (B,) are there, without those that only see the rest of a neighbour again.
+
+    Examples
+    --------
+    >>> once(np.array([0.1, np.nan, 1.48, 1.52]), np.array([0.0, 0.5, 1.0, 1.5])).tolist()
+    [0, 3]
+    """
+    at = np.flatnonzero(~np.isnan(times))
+    closest = CLOSEST * float(np.median(np.diff(beats)))
+    kept: list[int] = []
+    for beat in at.tolist():
+        if not kept or times[beat] - times[kept[-1]] >= closest:
+            kept.append(beat)
+        elif abs(times[beat] - beats[beat]) < abs(times[kept[-1]] - beats[kept[-1]]):
+            kept[-1] = beat
+    return np.array(kept, np.int64)
 
 
 def beats_inside(beats: Times, source: Motion | Markers) -> Times:
@@ -158,13 +196,13 @@ def in_units(energy: Energy, beats: Times) -> Energy:
     part = slice(max(first, 0), last + 1)
     curves: list[Array] = []
     for curve in (energy.world, energy.local):
-        mean = float(curve[part].mean())
+        mean = float(curve[part].mean()) if len(curve) else 0.0
         curves.append(curve / mean if mean > 1e-9 else curve)
     return replace(energy, world=curves[0], local=curves[1])
 
 
 def _paper(source: Motion | Markers, beats: Times, options: Options) -> Keyposes:
-    literal = replace(options, kind="paper", order="global-local")
+    literal = replace(PAPER, weights=options.weights, thresholds=options.thresholds)
     return Reading(source, beats, literal).keyposes(method="paper2009")
 
 
@@ -172,14 +210,14 @@ def _energy(source: Motion | Markers, beats: Times, options: Options) -> Keypose
     return Reading(source, beats, options).keyposes()
 
 
-def _by_hand(
-    name: str, find: Callable[[Points, Times, float], Times]
+def _by_ends(
+    name: str, source_name: str, find: Callable[[Points, Times, float], Times]
 ) -> Callable[[Motion | Markers, Times, Options], Keyposes]:
     def method(source: Motion | Markers, beats: Times, options: Options) -> Keyposes:
         reading = Reading(source, beats, options)
         times = find(reading.points, reading.beats, options.window)
-        sources = np.full(len(times), "hands", object)
-        return reading.taken(times, sources, {"hands": times}, options.thresholds, name)
+        sources = np.full(len(times), source_name, object)
+        return reading.taken(times, sources, {source_name: times}, options.thresholds, name)
 
     return method
 
@@ -187,8 +225,8 @@ def _by_hand(
 METHODS: Mapping[str, Callable[[Motion | Markers, Times, Options], Keyposes]] = {
     "energy": _energy,
     "paper2009": _paper,
-    "shiratori2004": _by_hand("shiratori2004", shiratori2004),
-    "hands": _by_hand("hands", hand_stops),
+    "shiratori2004": _by_ends("shiratori2004", "effectors", shiratori2004),
+    "hands": _by_ends("hands", "hands", hand_stops),
 }
 """Methods by name, the default first."""
 

@@ -59,12 +59,14 @@ class Unseen:
     vectors : the motion's poses.
     spans : seconds from and to of the unseen stretches.
     keyposes : (K,) seconds of unseen keyposes; there may be none.
+    between : the stretches are those that taught, and only what lies between the taught poses is unseen.
     """
 
     person: str
     vectors: PoseVectors
     spans: tuple[tuple[float, float], ...]
     keyposes: Times
+    between: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.stats import binomtest
 
 from onbeat.errors import MetricError
+from onbeat.keyposes.decoding import decoded
 
 VERSION = 1
 SPACES = ("keyposes", "uniform")
@@ -23,11 +24,12 @@ Said = msgspec.Meta
 
 
 class Trial(NamedTuple):
-    """One question: the motion's name, and of which space A and B are."""
+    """One question: the motion's name, of which space A and B are, and which stretch of the motion is shown."""
 
     motion: str
     a: str
     b: str
+    stretch: int = 0
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -38,6 +40,7 @@ class Answer(msgspec.Struct, frozen=True):
     b: Annotated[str, Said(description="the space that B was of")]
     chosen: Annotated[str, Said(description="`a` or `b`, whichever was found more like the original")]
     seconds: Annotated[float, Said(description="seconds it took")] = 0.0
+    stretch: Annotated[int, Said(description="which stretch of the motion was shown; 0 is the cycle that taught")] = 0
 
 
 class AnswersDocument(msgspec.Struct, frozen=True):
@@ -57,13 +60,7 @@ class AnswersDocument(msgspec.Struct, frozen=True):
         Traceback (most recent call last):
         onbeat.errors.MetricError: answers.json: version 7; this onbeat reads version 1
         """
-        try:
-            version = msgspec.json.decode(data, type=_Version).version
-            if version != VERSION:
-                raise MetricError(f"{source}: version {version}; this onbeat reads version {VERSION}")
-            found = msgspec.json.decode(data, type=cls)
-        except (msgspec.DecodeError, RecursionError) as error:
-            raise MetricError(f"{source}: no answers: {error}; save them from judge.html") from None
+        found = decoded(data, cls, VERSION, source, "a file of answers that judge.html saved")
         for number, answer in enumerate(found.answers):
             if sorted((answer.a, answer.b)) != sorted(SPACES) or answer.chosen not in ("a", "b"):
                 raise MetricError(
@@ -73,15 +70,12 @@ class AnswersDocument(msgspec.Struct, frozen=True):
         return found
 
 
-class _Version(msgspec.Struct):
-    version: int
-
-
 class Verdict(NamedTuple):
     """What the answers come to.
 
     ``chosen`` of ``trials`` chose keyposes; ``p`` is the chance of so one-sided a choice, or a more one-sided one, if
-    people cannot tell (two-sided); ``low`` and ``high`` bound the share who choose keyposes, 95 % (Clopper–Pearson).
+    people cannot tell (two-sided); ``low`` and ``high`` are the 95 % confidence interval of the true share that chooses
+    keyposes (Clopper–Pearson).
     """
 
     chosen: int
@@ -92,11 +86,12 @@ class Verdict(NamedTuple):
 
 
 def trials(motions: Sequence[str], rng: np.random.Generator, repeats: int = 1) -> list[Trial]:
-    """Each motion ``repeats`` times, in a drawn order, keyposes as often A as B but for one."""
-    order = [name for _ in range(repeats) for name in rng.permutation(np.array(motions, object)).tolist()]
+    """Each motion ``repeats`` times, a stretch of it each, in a drawn order; keyposes as often A as B but for one."""
+    order = [(name, n) for n in range(repeats) for name in rng.permutation(np.array(motions, object)).tolist()]
     swapped = rng.permutation(np.arange(len(order)) % 2 == int(rng.integers(2)))
     return [
-        Trial(name, *(SPACES[::-1] if swap else SPACES)) for name, swap in zip(order, swapped.tolist(), strict=True)
+        Trial(name, SPACES[swap], SPACES[1 - swap], stretch)
+        for (name, stretch), swap in zip(order, swapped.tolist(), strict=True)
     ]
 
 
@@ -122,7 +117,17 @@ def verdict(chosen: int, count: int) -> Verdict:
 
 
 def verdict_of(documents: Iterable[AnswersDocument]) -> Verdict:
-    """The verdict of all answers together."""
+    """The verdict of all answers together.
+
+    Raises
+    ------
+    MetricError
+        If there is no answer, or not all are of motions in as many dimensions.
+    """
+    documents = list(documents)
+    dims = sorted({document.dims for document in documents})
+    if len(dims) > 1:
+        raise MetricError(f"answers on motions of {' and of '.join(map(str, dims))} dimensions; judge each by itself")
     answers = [answer for document in documents for answer in document.answers]
     return verdict(
         sum((answer.a if answer.chosen == "a" else answer.b) == SPACES[0] for answer in answers), len(answers)

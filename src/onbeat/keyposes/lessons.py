@@ -14,7 +14,7 @@ def lesson(person: str, vectors: PoseVectors, keyposes: Times, cycle: int | None
     """The cycle in the middle of a dance teaches, what lies before and after it is unseen.
 
     In the middle, for a dance begins and ends with poses that are not of it: standing and waiting. A dance of one cycle
-    has nothing else: then the poses between those that are taken are what is tested.
+    has nothing else: then the poses ``between`` those that are taken are what is tested.
 
     Parameters
     ----------
@@ -37,10 +37,11 @@ def lesson(person: str, vectors: PoseVectors, keyposes: Times, cycle: int | None
     """
     times = np.asarray(keyposes, np.float64)
     count = cycle if cycle is not None else len(times) // 2 if len(times) > 3 else len(times)
+    told = "" if cycle is None else f", of which a cycle has {cycle}"
     if len(times) < 2 or not 2 <= count <= len(times):
         raise MetricError(
-            f"{person}: {len(times)} keyposes{f', of which a cycle has {cycle}' if cycle is not None else ''}; two of "
-            "each at least are needed: give a longer motion, its beats, or another --cycle"
+            f"{person}: {len(times)} keypose{'s' * (len(times) != 1)}{told}; two of "
+            "each at least are needed: give a longer motion, its beats, or another --in-cycle"
         )
     if (
         not np.isfinite(times).all()
@@ -58,4 +59,4 @@ def lesson(person: str, vectors: PoseVectors, keyposes: Times, cycle: int | None
     taught = Taught(person, vectors, taken, float(taken[0]), end)
     spans = tuple((a, b) for a, b in ((float(times[0]), float(taken[0])), (end, float(times[-1]))) if b > a)
     whole = ((float(taken[0]), min(end, vectors.duration)),)
-    return taught, Unseen(person, vectors, spans or whole, more if spans else np.zeros(0))
+    return taught, Unseen(person, vectors, spans or whole, more if spans else np.zeros(0), not spans)

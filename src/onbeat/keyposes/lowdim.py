@@ -32,7 +32,7 @@ class LowDimensional:
     taught, tested : of each, what taught and what is unseen.
     spaces : by name: "keyposes", and "uniform" at phase 0 as in the paper.
     dims : K′.
-    frames : errors on unseen frames of the same people.
+    frames : errors on unseen frames of the same people; dances of a single cycle count only if all are.
     people : errors on people who did not teach; None where there is but one.
     natural : what is natural, learned from the originals.
     """
@@ -45,6 +45,11 @@ class LowDimensional:
     frames: HeldOut
     people: HeldOut | None
     natural: Natural
+
+    @property
+    def between(self) -> bool:
+        """Whether ``frames`` tells but of what lies between the taught poses, for no dance is more than a cycle."""
+        return all(one.between for one in self.tested)
 
     @property
     def vectors(self) -> tuple[PoseVectors, ...]:
@@ -124,12 +129,17 @@ def low_dimensional(
     if not 1 <= chosen <= most:
         raise MetricError(
             f"{chosen} dimensions of a space that has {most}: {sum(len(one.keyposes) for one in taught)} keyposes of "
-            f"{len(taught)} people span no more; give 1 to {most}, or more people"
+            f"{people_told(len(taught))} span no more; give 1 to {most}, or more people"
         )
     up_to = min(max(MOST, chosen), most)
     return LowDimensional(
         tuple(motions), taught, tested, dict(zip(SPACES, (ours, theirs[0]), strict=True)), chosen,
-        held_out(taught, tested, up_to),
+        held_out(taught, [one for one in tested if not one.between] or tested, up_to),
         held_out(taught, tested, up_to, strangers=True) if len(taught) > 1 else None,
         Natural.of(vectors),
     )  # fmt: skip
+
+
+def people_told(count: int) -> str:
+    """How many people, in words: ``1 person``, ``2 people``."""
+    return f"{count} {'person' if count == 1 else 'people'}"

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 
 from onbeat._shapes import Array
-from onbeat.errors import MetricError
+from onbeat.keyposes.decoding import decoded
 from onbeat.keyposes.held_out import MEASURES, HeldOut
 from onbeat.keyposes.judging import SPACES
 from onbeat.keyposes.lowdim import LowDimensional
@@ -30,20 +30,26 @@ class PersonDocument(msgspec.Struct, frozen=True):
 
 
 class SpaceDocument(msgspec.Struct, frozen=True):
-    """A space, and the motions in it."""
+    """A space, and the points rebuilt in it, which no skeleton holds; motions that are written keep their bones."""
 
     space: Annotated[str, Said(description="`keyposes` or `uniform`")]
     cumulative: Annotated[list[float], Said(description="share of the variance in 1, 2, … dimensions (Eq. 9)")]
-    through: Annotated[float, Said(description="share of the frames in which a bone goes through another")]
-    beyond: Annotated[float, Said(description="share of the frames in which a joint is beyond its range")]
-    stretched: Annotated[float, Said(description="share in which a bone's length is off by a tenth")]
-    length_change: Annotated[float, Said(description="mean change of the bones' lengths, of their length")]
+    through: Annotated[float, Said(description="as points: share of frames with a bone through another")]
+    beyond: Annotated[float, Said(description="as points: share of frames with a joint beyond its range")]
+    stretched: Annotated[float, Said(description="as points: share of frames with a bone's length off by a tenth")]
+    length_change: Annotated[float, Said(description="as points: mean change of the bones' lengths, of them")]
 
 
 class ErrorDocument(msgspec.Struct, frozen=True):
     """Errors on unseen poses, metres, in 1, 2, … dimensions."""
 
-    unseen: Annotated[str, Said(description="`frames` of the same people, or `people` who did not teach")]
+    unseen: Annotated[
+        str,
+        Said(
+            description="`frames` of the same people, `between` the poses that taught where a dance is a single cycle, "
+            "or `people` who did not teach"
+        ),
+    ]
     of: Annotated[str, Said(description="`all` frames, those at `rest`, or the `keyposes`")]
     keyposes: Annotated[list[float], Said(description="of the keypose space")]
     uniform: Annotated[list[float], Said(description="of uniform sampling, the mean over its phases")]
@@ -75,17 +81,7 @@ class LowdimDocument(msgspec.Struct, frozen=True):
         Traceback (most recent call last):
         onbeat.errors.MetricError: lowdim.json: version 9; this onbeat reads version 1
         """
-        try:
-            found = msgspec.json.decode(data, type=_Version).version
-            if found != VERSION:
-                raise MetricError(f"{source}: version {found}; this onbeat reads version {VERSION}")
-            return msgspec.json.decode(data, type=cls)
-        except (msgspec.DecodeError, RecursionError) as error:
-            raise MetricError(f"{source}: not what `onbeat lowdim` writes: {error}") from None
-
-
-class _Version(msgspec.Struct):
-    version: int
+        return decoded(data, cls, VERSION, source, "what `onbeat lowdim` writes")
 
 
 def document(found: LowDimensional) -> LowdimDocument:
@@ -96,7 +92,10 @@ def document(found: LowDimensional) -> LowdimDocument:
         )
         for one in found.taught
     ]
-    errors = [*_errors("frames", found.frames), *([] if found.people is None else _errors("people", found.people))]
+    errors = [
+        *_errors("between" if found.between else "frames", found.frames),
+        *([] if found.people is None else _errors("people", found.people)),
+    ]
     spaces = [_space(found, name, found.spaces[name]) for name in SPACES]
     poses = sum(len(one.keyposes) for one in found.taught)
     return LowdimDocument(VERSION, found.dims, poses, list(found.vectors[0].points), people, spaces, errors)

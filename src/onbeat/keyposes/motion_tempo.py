@@ -29,8 +29,8 @@ STEADINESS, PRIOR_WEIGHT = 40.0, 1.0
 """Cost of a change of tempo, and of an unusual one per second, as in ``music.barpointer``."""
 
 
-def motion_beats(source: Motion | Markers) -> Times:
-    """Beats (B,) in seconds that a motion keeps by itself.
+def motion_beats(source: Motion | Markers, local: bool = True) -> Times:
+    """Beats (B,) in seconds that a motion keeps by itself; without ``local`` by how it moves in the world alone.
 
     Raises
     ------
@@ -46,20 +46,22 @@ def motion_beats(source: Motion | Markers) -> Times:
     >>> float(np.median(np.diff(motion_beats(clip.motion))).round(2)), float(np.diff(clip.beats)[0].round(2))
     (0.58, 0.58)
     """
-    energy = energy_of(body_points(source))
-    rests = [minima(curve) for curve in (energy.world, energy.local)]
-    heard = sum((strength(one, len(energy.times)) for one in rests), np.zeros(len(energy.times))) / 2.0
+    energy = energy_of(body_points(source, local=local))
+    rests = [minima(curve) for curve in (energy.world, energy.local) if len(curve)]
+    heard = sum((strength(one, len(energy.times)) for one in rests), np.zeros(len(energy.times))) / len(rests)
     label = source.name or "the motion"
     if min(len(one.times) for one in rests) < 2:
         raise PlanError(
-            f"{label} has no pulse of its own: {source.duration:.2f} s with {len(rests[1].times)} rests; give the beats"
-            " (--beats) or the song (--music), or take more of it"
+            f"{label} has no pulse of its own: {(len(source) - 1) / source.fps:.2f} s with {len(rests[-1].times)} "
+            "rests; give the beats (--beats) or the song (--music), or take more of it"
         )
     frames = decode_beats(GAIN * (heard - EMPTY), beat_space(RATE, STEADINESS), PRIOR_WEIGHT)
     beats = frames / RATE
-    inside = (beats > rests[1].times[0] - 1.0) & (beats < rests[1].times[-1] + 1.0)
+    inside = (beats > rests[-1].times[0] - 1.0) & (beats < rests[-1].times[-1] + 1.0)
     if inside.sum() < 2:
-        raise PlanError(f"{label}: no two beats are kept in {source.duration:.2f} s; give the beats or the song")
+        raise PlanError(
+            f"{label}: no two beats are kept in {(len(source) - 1) / source.fps:.2f} s; give the beats or the song"
+        )
     return beats[inside]
 
 

@@ -47,6 +47,8 @@ _ENDS: Mapping[str, tuple[str, ...]] = {
 }
 _SIDES = ("left", "right")
 _CENTRE = ("Hips", "Spine", "Chest", "Head")
+ENOUGH = 12
+"""Markers on known places, from which on others are left out."""
 LONGEST_GAP = 0.5
 """Seconds a marker may be unseen and still count, on a straight line between where it was seen."""
 
@@ -64,6 +66,7 @@ class Points:
     weights : (N,) how much each point counts; they add up to 1.
     hands, feet : which points end the arms and the legs.
     fps : frames per second.
+    centred : whether the body-centre frame is known.
     """
 
     names: tuple[str, ...]
@@ -75,6 +78,7 @@ class Points:
     hands: Ints
     feet: Ints
     fps: float
+    centred: bool = True
 
     def local(self, which: Ints | slice = slice(None)) -> Positions:
         """Some of the points (F, K, 3) in the body-centre frame, metres."""
@@ -84,8 +88,9 @@ class Points:
 def body_points(source: Motion | Markers, weights: str = "uniform", local: bool = True) -> Points:
     """The points of a motion or of markers.
 
-    Of a motion all joints that play a role, so that fingers and a skirt's bones do not outvote the body; of markers all
-    that are ever seen. Without ``local`` the body-centre frame is not looked for: markers need no known labels then.
+    Of a motion all joints that play a role, so that fingers and a skirt's bones do not outvote the body; of markers
+    those that are ever seen: where ``ENOUGH`` of them sit on known places only these, as files hold computed points,
+    too. Without ``local`` the body-centre frame is not looked for: markers need no known labels then.
 
     Raises
     ------
@@ -109,19 +114,21 @@ def _of_motion(motion: Motion, weights: str) -> Points:
 
 
 def _of_markers(markers: Markers, weights: str, local: bool) -> Points:
+    sites = find_sites(markers.names)
+    segment = {label: SITES[site].segment for site, labels in sites.items() for label in labels}
     ever: Bools = np.asarray(markers.seen.any(axis=0))
+    known: Bools = ever & np.array([name in segment for name in markers.names])
+    ever = known if known.sum() >= ENOUGH else ever
     names = tuple(name for name, is_seen in zip(markers.names, ever, strict=True) if is_seen)
     frames, origins = marker_body_frames(markers) if local else _at_rest(len(markers))
     positions = markers.positions if ever.all() else markers.positions[:, ever]
     positions, counted = bridged(positions, markers.fps)
-    sites = find_sites(markers.names)
-    segment = {label: SITES[site].segment for site, labels in sites.items() for label in labels}
     shares = marker_masses(names, segment) if weights == "mass" else np.full(len(names), 1.0 / len(names))
     hands, feet = (
         np.array([k for k, name in enumerate(names) if segment.get(name, "").endswith(part)], np.int64)
         for part in ("Hand", "Foot")
     )
-    return Points(names, positions, counted, frames, origins, shares, hands, feet, markers.fps)
+    return Points(names, positions, counted, frames, origins, shares, hands, feet, markers.fps, local)
 
 
 def _at_rest(count: int) -> tuple[Rotations, Positions]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Sequence
 from importlib import resources
@@ -24,7 +25,7 @@ from onbeat.viewer.figure import Figure, ground_height
 FPS = 30.0
 """Frames a second on the page, which draws between them."""
 LONGEST = 15.0
-"""Seconds of each motion, its first cycle or the beginning of that."""
+"""Seconds of each motion: of the cycle that taught, in the middle, or the beginning of that; repeats show as much."""
 _SLOT = b"<!--onbeat-data-->"
 _WIDTHS = {
     "hip": 170.0, "knee": 110.0, "ankle": 75.0, "collar": 120.0, "shoulder": 120.0, "elbow": 80.0, "wrist": 62.0,
@@ -53,7 +54,9 @@ def write_judge_page(path: str | os.PathLike[str], found: LowDimensional, trials
     if not trials or any(trial.motion not in people for trial in trials):
         raise MetricError(f"trials of {sorted({trial.motion for trial in trials})} cannot be asked: there are {people}")
     shown = [people.index(name) for name in dict.fromkeys(trial.motion for trial in trials)]
-    data = msgspec.json.encode(_data(found, shown, trials)).replace(b"<", b"\\u003c")
+    content = _data(found, shown, trials)
+    key = hashlib.sha256(msgspec.json.encode(content)).hexdigest()[:16]  # under which a browser keeps the answers
+    data = msgspec.json.encode({"key": key, **content}).replace(b"<", b"\\u003c")
     page = _shell().replace(_SLOT, b'<script type="application/json" id="data">' + data + b"</script>", 1)
     write_atomically(path, page)
 
@@ -67,7 +70,7 @@ def _shell() -> bytes:
 
 
 def _data(found: LowDimensional, shown: Sequence[int], trials: Sequence[Trial]) -> dict[str, Any]:
-    first = found.vectors[shown[0]]
+    first, repeats = found.vectors[shown[0]], 1 + max(trial.stretch for trial in trials)
     return {
         "version": VERSION,
         "dims": found.dims,
@@ -75,7 +78,7 @@ def _data(found: LowDimensional, shown: Sequence[int], trials: Sequence[Trial]) 
         "points": len(first.points),
         "trunk": _COLOURS[""],
         "bones": _bones(first.points, bone_ends(found.motions[shown[0]].skeleton, first.joints)),
-        "motions": {found.taught[which].person: _motion(found, which) for which in shown},
+        "motions": {found.taught[which].person: _stretches(found, which, repeats) for which in shown},
         "trials": [trial._asdict() for trial in trials],
     }
 
@@ -90,15 +93,33 @@ def _bones(points: tuple[str, ...], ends: np.ndarray) -> list[list[Any]]:
     return drawn
 
 
-def _motion(found: LowDimensional, which: int) -> dict[str, Any]:
-    """The three paths of a motion's first cycle, seen from the front, and the box they keep in, millimetres."""
+def stretches(found: LowDimensional, which: int, repeats: int) -> list[tuple[float, float]]:
+    """Seconds from and to of what is shown of a motion: the cycle that taught, and stretches all over the dance.
+
+    They are as long as a cycle, but no longer than so many find room in the dance without lying over each other.
+    """
     one = found.taught[which]
-    end = min(one.end, one.start + LONGEST, one.vectors.duration)
-    times = one.start + np.arange(max(2, int((end - one.start) * FPS) + 1)) / FPS
-    original = found.motions[which]
+    spans = [*found.tested[which].spans, (one.start, one.end)]
+    low, high = min(a for a, _ in spans), min(max(b for _, b in spans), one.vectors.duration)
+    length = min(one.end - one.start, LONGEST, high - one.start)
+    if repeats > 1:
+        length = min(length, (high - low) / repeats)
+    room = high - low - length
+    starts = [one.start] + [low + (one.start - low + n * room / repeats) % max(room, 1e-9) for n in range(1, repeats)]
+    return [(start, start + length) for start in starts]
+
+
+def _stretches(found: LowDimensional, which: int, repeats: int) -> list[dict[str, Any]]:
+    motions = {"original": found.motions[which], **{space: found.motion(which, space) for space in SPACES}}
+    return [_motion(found, which, motions, *span) for span in stretches(found, which, repeats)]
+
+
+def _motion(found: LowDimensional, which: int, motions: dict[str, Motion], start: float, end: float) -> dict[str, Any]:
+    """The three paths of a stretch of a motion, seen from the front, and the box they keep in, millimetres."""
+    one, original = found.taught[which], motions["original"]
+    times = start + np.arange(max(2, int((end - start) * FPS) + 1)) / FPS
     turn = rot.yaw(-_mean_facing(one.vectors.frames))
     ground = ground_height(Figure.of(original.skeleton), original)
-    motions = {"original": original, **{space: found.motion(which, space) for space in SPACES}}
     # The view goes sideways with the original's hips, whose path all three have.
     middle = rot.rotate(turn, original.at(times).positions[:, one.vectors.joints[:1]])
     middle[..., 1:] = np.median(middle[..., 1]), ground

@@ -28,6 +28,7 @@ LOOKS = {
     "global": Look("o", "#1f3f77", "in the world"),
     "local": Look("s", "#e0782f", "in the body's frame"),
     "hands": Look("D", "#2f8f83", "of the hands"),
+    "effectors": Look("D", "#2f8f83", "of hands and feet"),
     "beat": Look("h", "#7d8796", "on the beat"),
 }
 """By the source of a keypose."""
@@ -84,10 +85,13 @@ def draw_row(page: Any, row: Row, y: float, sizes: Measures, content: Content) -
         return sizes.left + (np.asarray(beats) - (row.first - 0.5)) * scale
 
     upper = y - sizes.head - sizes.graph
-    lower = upper - sizes.gap - sizes.graph
+    graphs = [("global", upper, found.energy.world)]
+    if len(found.energy.local):  # none where the body's frame is not known
+        graphs.append(("local", upper - sizes.gap - sizes.graph, found.energy.local))
+    lower = graphs[-1][1]
     page.text(sizes.left, y - 0.11, row.title, size=8, color=INK, weight="bold", va="center")
     _draw_beats(page, row, x_of, lower, upper + sizes.graph, content)
-    for name, base, curve in (("global", upper, found.energy.world), ("local", lower, found.energy.local)):
+    for name, base, curve in graphs:
         _draw_graph(page, name, base, sizes, content.top)
         part = (content.at >= row.first - 0.5) & (content.at <= end)
         if part.any():

@@ -60,11 +60,11 @@ def write_keypose_page(
 
 
 def _energy(found: Keyposes) -> EnergyData:
-    """Both curves; what rests otherwise (hands) is marked on the upper one."""
+    """Both curves, the local one empty where it is not known; what rests otherwise (hands) is marked on the upper."""
     energy = found.energy
     every = max(1, round(RATE / CURVE_RATE))
-    curves = np.stack((energy.world, energy.local))[:, ::every]
-    world, local = curves / max(float(curves.max()), 1e-9)
+    most = max(float(energy.world[::every].max()), float(energy.local[::every].max(initial=0.0)), 1e-9)
+    world, local = energy.world[::every] / most, energy.local[::every] / most
     marks = {name: times[~np.isnan(times)].round(4).tolist() for name, times in found.candidates.items()}
     others = sorted(time for name, times in marks.items() if name != "local" for time in times)
     rate = RATE / every

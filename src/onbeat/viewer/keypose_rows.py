@@ -91,7 +91,8 @@ def keypose_numbers(beats: Ints, song_beats: Times, downbeats: Times, cycle: int
     """(K,) numbers from 1: those of the same keypose are the same in every cycle, where its beats are known."""
     if cycle is None or not len(beats):
         return np.arange(1, len(beats) + 1)
-    return cycle_columns(beats, _start(beats, downbeats_among(song_beats, downbeats)), cycle)[1]
+    start = _start(beats, downbeats_among(song_beats, downbeats))
+    return cycle_columns(beats, start, min(cycle, len(song_beats)))[1]
 
 
 def rows_of(beats: Ints, song_beats: Times, downbeats: Times, cycle: int | None = None) -> list[Row]:
@@ -107,7 +108,8 @@ def rows_of(beats: Ints, song_beats: Times, downbeats: Times, cycle: int | None 
     down = downbeats_among(song_beats, downbeats)
     start = _start(beats, down)
     if cycle is not None and len(beats):
-        return _cycles(np.asarray(beats, np.int64), start, cycle)
+        # A cycle as long as the song or longer is one, however long: it ends with the beats.
+        return _cycles(np.asarray(beats, np.int64), start, min(cycle, len(song_beats)), len(song_beats))
     bar = round(float(np.median(np.diff(down)))) if len(down) > 1 else USUAL_BAR
     return _lines(np.asarray(beats, np.int64), start, max(bar, 1), len(song_beats))
 
@@ -154,7 +156,7 @@ def _fullest(beats: Ints, start: int, length: int) -> int:
     return int(np.unique((beats - start) // length, return_counts=True)[1].max(initial=0))
 
 
-def _cycles(beats: Ints, start: int, cycle: int) -> list[Row]:
+def _cycles(beats: Ints, start: int, cycle: int, count: int) -> list[Row]:
     """One cycle under another; those of too many keyposes in parts, all cycles of a part under each other."""
     place, numbers = cycle_columns(beats, start, cycle)
     which = (beats - start) // cycle
@@ -170,7 +172,7 @@ def _cycles(beats: Ints, start: int, cycle: int) -> list[Row]:
             if not len(chosen):
                 continue
             first, last = start + one * cycle + offset, start + one * cycle + end
-            title = f"cycle {one + 1 - int(which[0])} · beats {first + 1}–{last}"
+            title = f"cycle {one + 1 - int(which[0])} · beats {first + 1}–{min(last, count)}"
             wanted, column = (columns - offset).astype(np.float64), np.searchsorted(columns, place[chosen])
             rows.append(Row(title, first, last, chosen, numbers[chosen], wanted, column))
     return rows

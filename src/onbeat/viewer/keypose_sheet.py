@@ -5,8 +5,10 @@ from __future__ import annotations
 import bisect
 import contextlib
 import io
+import itertools
 import warnings
 from collections.abc import Generator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +28,8 @@ A4 = (11.69, 8.27)
 DPI = 200
 """Pixels an inch of PNG files, and of the poses in all."""
 ENDINGS = (".png", ".svg", ".pdf")
+MOST_FILES = 12
+"""Pages that are written as PNG or SVG files; a PDF has all."""
 ROWS, LARGE, FEW = 3, 2, 6
 """Rows of a page, and of a page of a sheet of few rows that are not to be compared with each other."""
 LEFT, RIGHT, TOP, FOOT = 0.85, 11.34, 0.9, 0.24
@@ -48,7 +52,9 @@ def write_keypose_sheet(
 ) -> list[Path]:
     """Draw a sheet to a PNG, SVG or PDF file of A4 pages; the files that were written.
 
-    A PDF holds all pages; of PNG and SVG those after the first are ``NAME_2.png``, ``NAME_3.png``, ….
+    A PDF holds all pages. Of PNG and SVG those after the first are ``NAME_2.png``, ``NAME_3.png``, …, up to
+    ``NAME_12.png``: the first ``MOST_FILES`` pages are written, no more. Files of such names that follow the last, left
+    from an earlier, longer sheet, are removed.
 
     Parameters
     ----------
@@ -84,18 +90,24 @@ def keypose_pages(
     together = min(len(rows), ROWS if cycle is not None or len(rows) > FEW else LARGE)
     pages = [rows[first : first + together] for first in range(0, len(rows), together)]
     sizes = _measures(rows, together)
+    if not len(found.energy.local):
+        sizes = replace(sizes, graph=2 * sizes.graph + sizes.gap)  # one graph has the room of both
     content = _content(found, down, poses_at(fitted(source), found.times) if len(found) else None, sizes)
     return [_page(one, (number, len(pages)), title, cycle, sizes, content) for number, one in enumerate(pages, 1)]
 
 
 def save_pages(pages: Sequence[Any], path: Path) -> list[Path]:
-    """Write pages to a file, or one of each; the same bytes for the same pages. See :func:`write_keypose_sheet`."""
+    """Write pages to a PDF, or the first 12 to a PNG or SVG file each; the same bytes for the same pages.
+
+    See :func:`write_keypose_sheet` for the names and for what is removed.
+    """
     from matplotlib.backends.backend_pdf import PdfPages
 
     path, kind = Path(path), Path(path).suffix.lower()
     if kind not in ENDINGS:
         raise OnbeatError(f"{path}: cannot draw {kind or 'a file without ending'}; use {', '.join(ENDINGS)}")
-    names = [path, *(path.with_name(f"{path.stem}_{n}{path.suffix}") for n in range(2, len(pages) + 1))]
+    shown = pages[:MOST_FILES]
+    names = [path, *(_numbered(path, n) for n in range(2, len(shown) + 1))]
     with _drawing():
         if kind == ".pdf":
             buffer = io.BytesIO()
@@ -105,11 +117,26 @@ def save_pages(pages: Sequence[Any], path: Path) -> list[Path]:
             write_atomically(path, buffer.getvalue())
             return [path]
         undated: dict[str, Any] = {"Date": None} if kind == ".svg" else {"Software": None}
-        for page, name in zip(pages, names, strict=True):
+        for page, name in zip(shown, names, strict=True):
             buffer = io.BytesIO()
             page.savefig(buffer, format=kind[1:], dpi=DPI, metadata=undated)
             write_atomically(name, buffer.getvalue())
+    _remove_after(path, len(names))
     return names
+
+
+def _numbered(path: Path, number: int) -> Path:
+    return path.with_name(f"{path.stem}_{number}{path.suffix}")
+
+
+def _remove_after(path: Path, count: int) -> None:
+    """Remove the pages that an earlier run with more of them left behind."""
+    names = itertools.takewhile(Path.is_file, (_numbered(path, n) for n in itertools.count(max(count, 1) + 1)))
+    try:
+        for name in reversed(list(names)):
+            name.unlink(missing_ok=True)
+    except OSError as error:
+        raise OnbeatError(f"cannot remove the old {error.filename}: {error.strerror or error}; remove it") from None
 
 
 @contextlib.contextmanager
@@ -154,7 +181,8 @@ def _top(found: Keyposes) -> float:
     """The energy at which graphs end: the highest between the beats, but for a leap that would flatten all else."""
     times = found.energy.times
     part = (times >= found.song_beats[0]) & (times <= found.song_beats[-1])
-    both = np.concatenate([found.energy.world[part], found.energy.local[part]])
+    curves = [curve for curve in (found.energy.world, found.energy.local) if len(curve)]
+    both = np.concatenate([curve[part] for curve in curves])
     return max(1.2, min(1.03 * float(both.max()), 2.0 * float(np.percentile(both, 98)))) if len(both) else 1.2
 
 

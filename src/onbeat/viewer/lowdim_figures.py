@@ -83,7 +83,8 @@ def trajectory_figure(found: LowDimensional, which: int) -> Any:
 
 def error_figure(found: LowDimensional) -> Any:
     """Held-out errors over K′: unseen frames and unseen people, of all frames, of those at rest and of keyposes."""
-    rows = [("unseen frames", found.frames), *([] if found.people is None else [("unseen people", found.people)])]
+    known = "between taught poses" if found.between else "unseen frames"
+    rows = [(known, found.frames), *([] if found.people is None else [("unseen people", found.people)])]
     figure = new_figure((10.2, 3.1 * len(rows)))
     grid = figure.subplots(len(rows), len(MEASURES), squeeze=False, sharex=True)
     for line, (title, measured) in zip(grid, rows, strict=True):

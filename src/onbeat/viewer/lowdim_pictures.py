@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from onbeat._shapes import Array
+from onbeat.keyposes.judging import SPACES
 from onbeat.keyposes.lowdim import LowDimensional
 from onbeat.motion import Motion
 from onbeat.viewer.camera import Size, follow
@@ -17,6 +19,9 @@ from onbeat.viewer.raster import render_frame
 from onbeat.viewer.sheet import write_png
 from onbeat.viewer.stage import Stage
 
+CAPTION, GAP = 40, 12
+"""Pixels above a picture that tell how its moment was picked, and between two pictures."""
+TITLES = {"keyposes": "the keypose space", "uniform": "uniform sampling"}
 SIDE = 1.35
 """Radians off the front from where the second row of pictures is taken."""
 
@@ -33,30 +38,60 @@ def worst_posture(found: LowDimensional, ours: str = "keyposes", theirs: str = "
     return worst
 
 
-def most_different(found: LowDimensional) -> tuple[int, int]:
-    """Motion and frame at which uniform sampling is further off the original than keyposes are, by most."""
+def most_different(found: LowDimensional, ours: str = "keyposes", theirs: str = "uniform") -> tuple[int, int]:
+    """Motion and frame at which one space is further off the original than the other is, by most."""
     best, at = -np.inf, (0, 0)
     for which, vectors in enumerate(found.vectors):
-        ours, theirs = (
-            np.linalg.norm(found.poses(which, name) - vectors.values, axis=1) for name in ("keyposes", "uniform")
-        )
-        frame = int((theirs - ours).argmax())
-        if theirs[frame] - ours[frame] > best:
-            best, at = float(theirs[frame] - ours[frame]), (which, frame)
+        mine, other = (np.linalg.norm(found.poses(which, name) - vectors.values, axis=1) for name in (ours, theirs))
+        frame = int((other - mine).argmax())
+        if other[frame] - mine[frame] > best:
+            best, at = float(other[frame] - mine[frame]), (which, frame)
     return at
 
 
 def write_lowdim_pictures(folder: Path, found: LowDimensional) -> list[str]:
     """Draw the pictures to a folder; their names.
 
-    ``unnatural.png`` where uniform sampling makes an unnatural posture and keyposes do not, else ``postures.png`` of
-    the moment at which they differ most; ``dimensions.png``.
+    ``unnatural.png`` where one space makes an unnatural posture and the other does not, else ``postures.png`` of the
+    moments at which they differ most; ``dimensions.png``. The first shows both sides: a moment picked against uniform
+    sampling and one picked against keyposes.
     """
-    worst = worst_posture(found)
-    name = "postures.png" if worst is None else "unnatural.png"
-    write_png(folder / name, posture_picture(found, *(most_different(found) if worst is None else worst)))
+    worst = [worst_posture(found, *spaces) for spaces in (SPACES, SPACES[::-1])]
+    name = "unnatural.png" if any(worst) else "postures.png"
+    write_png(folder / name, both_sides(found, worst if any(worst) else None))
     write_png(folder / "dimensions.png", dimensions_picture(found, 0, telling_frame(found, 0)))
     return [name, "dimensions.png"]
+
+
+def both_sides(
+    found: LowDimensional, unnatural: Sequence[tuple[int, int] | None] | None, size: Size = (300, 380)
+) -> np.ndarray:
+    """Two pictures of postures beside each other, each with how it was picked: against uniform sampling, and keyposes.
+
+    Parameters
+    ----------
+    found : the motions.
+    unnatural : motion and frame of the worst posture of uniform sampling and of keyposes, see :func:`worst_posture`;
+        None where there is none, and that is written. Without it the moments are those of :func:`most_different`.
+    size : of each picture in them.
+    """
+    sides: list[np.ndarray] = []
+    for number, spaces in enumerate((SPACES, SPACES[::-1])):
+        other, of = (TITLES[name] for name in spaces)
+        picked = most_different(found, *spaces) if unnatural is None else unnatural[number]
+        if picked is None:
+            blank = np.full((2 * size[1], 3 * size[0], 3), 255, np.uint8)
+            sides.append(_captioned(blank, f"none where {of} alone is unnatural"))
+            continue
+        how = f"most unnatural, {other} not" if unnatural else f"farthest from the original compared with {other}"
+        sides.append(_captioned(posture_picture(found, *picked, size), f"picked where {of} is {how}"))
+    return np.hstack((sides[0], np.full((len(sides[0]), GAP, 3), 255, np.uint8), sides[1]))
+
+
+def _captioned(picture: np.ndarray, words: str) -> np.ndarray:
+    band = np.full((CAPTION, picture.shape[1], 3), 255, np.uint8)
+    write_text(band, words, 10, 8, 20, (60, 66, 74))
+    return np.vstack((band, picture))
 
 
 def _amount(through: Array, beyond: Array) -> Array:
