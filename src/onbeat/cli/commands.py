@@ -34,6 +34,11 @@ COMMANDS = {
         "Rebuild dances in a few dimensions, by keyposes and by uniform sampling, and test which looks right.",
         "onbeat lowdim aiko.bvh bruno.bvh carla.bvh --in-cycle 8 --music song.mp3 -o lowdim",
     ),
+    "recognise": (
+        "onbeat.cli.recognise:recognise_app",
+        "Say which step is danced, and by whom, or that it is something or somebody new.",
+        "onbeat recognise model.npz unknown.bvh",
+    ),
     "evaluate": (
         "onbeat.cli.evaluate:evaluate_command",
         "Measure how well a motion dances to a song: on the beat, with its intensity, on its feet, smoothly.",

@@ -1,0 +1,1 @@
+"""Recognition: who dances what. Segments of dances, the multi-factor tensor of tasks and people, and what is new."""
