@@ -32,6 +32,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
                 start, end = clip.beats[2 + 4 * cycle], clip.beats[5 + 4 * cycle]
                 row = f"{name},{start:.3f},{end:.3f},{figure.name},{dancer.name},{cycle}"
                 rows["other" if figure is STAR else "tried" if cycle == 2 else "taught"].append(row)
+    (place / "bare.csv").write_text("file,from,to\nAiko claps.npz,1,2\n")
     for name, lines in rows.items():
         (place / f"{name}.csv").write_text(HEAD + "\n".join(lines) + "\n")
     return place
@@ -89,6 +90,8 @@ def test_the_same_labels_give_the_same_model(onbeat: Run, folder: Path, model: P
         (("model.npz", "Aiko claps.npz", "--span", "0"), "--span 0"),
         (("model.npz", "Aiko claps.npz", "--span", "99"), "has no 100 keyposes in a row"),
         (("train", "taught.csv", "-o", "x.npz", "--seed", "-1"), "--seed -1"),
+        (("train", "bare.csv", "-o", "x.npz"), "none of a known task or person"),
+        (("evaluate", "model.npz", "bare.csv"), "no task and no person in"),
     ],
 )
 def test_what_cannot_be_is_one_clear_line(

@@ -147,7 +147,9 @@ def train_command(
         recogniser = Recogniser.train(segments, np.random.default_rng(seed), across=across)
     save_recogniser(recogniser, output)
     counts = [len(expert.names) if expert else 0 for expert in (recogniser.task, recogniser.person)]
-    _screen().print(Text(f"{output}: {counts[0]} tasks and {counts[1]} persons from {len(segments)} segments"))
+    told = [f"{n} {name}{'' if n == 1 else 's'}" for n, name in zip(counts, ("task", "person"), strict=True)]
+    of = f"{len(segments)} segment{'' if len(segments) == 1 else 's'}"
+    _screen().print(Text(f"{output}: {told[0]} and {told[1]} from {of}"))
 
 
 @recognise_app.command(name="evaluate")
@@ -171,6 +173,8 @@ def evaluate_command(model: Path, labels: Paths, /, *, fps: float | None = None,
     with warnings_as_lines():
         probes, segments = read_segments(labels, BeatFlags(fps=fps), None)
         predictions = recogniser.predict(segments)
+    if not any(probe.task or probe.person for probe in probes):
+        raise OnbeatError(f"no task and no person in {', '.join(map(str, labels))}; label what is to be held against")
     document: dict[str, Any] = {"version": VERSION}
     for factor, expert in (("task", recogniser.task), ("person", recogniser.person)):
         if expert is None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Ints, Times, frozen
 from onbeat.errors import BodyError, PlanError
-from onbeat.keyposes.candidates import WINDOW, Minima, Thresholds, candidates, minima
+from onbeat.keyposes.candidates import LEAST_RISE, WINDOW, Minima, Thresholds, candidates, minima
 from onbeat.keyposes.effectors import hand_stops, shiratori2004
 from onbeat.keyposes.energy import RATE, Energy, energy_of
 from onbeat.keyposes.points import Points, body_points
@@ -37,6 +37,7 @@ class Options:
     thresholds : T1 and T2 in units of the mean energy.
     window : share of a beat within which a minimum belongs to a beat.
     either : whether a rise of T2 on one side of a minimum is enough.
+    least : of the mean energy; bumps lower than this part no rests.
     held : of the mean energy, by how much a body at rest may be over the minimum: of a pose that is held the moment
         nearest to its beat is taken; 0 takes the minimum itself.
     """
@@ -47,10 +48,11 @@ class Options:
     thresholds: Thresholds = DEFAULT
     window: float = WINDOW
     either: bool = False
+    least: float = LEAST_RISE
     held: float = 0.02
 
 
-PAPER = Options(kind="paper", window=0.25, either=True, held=0.0)
+PAPER = Options(kind="paper", window=0.25, either=True, least=0.0, held=0.0)
 """As printed in 2009, as far as it is printed: smoothing and units of the thresholds are ours."""
 PERIODS = (0.2, 1.5)
 """Seconds between beats beyond which the smoothing does not follow them."""
@@ -109,9 +111,9 @@ class Reading:
         self.points = body_points(source, options.weights, "local" in options.order)
         period = float(np.clip(np.median(np.diff(self.beats)), *PERIODS))
         self.energy = in_units(energy_of(self.points, options.kind, SMOOTHING_SHARE * period), self.beats)
-        self.minima: dict[str, Minima] = {"global": minima(self.energy.world)}
+        self.minima: dict[str, Minima] = {"global": minima(self.energy.world, least=options.least)}
         if self.points.centred:
-            self.minima["local"] = minima(self.energy.local)
+            self.minima["local"] = minima(self.energy.local, least=options.least)
 
     def keyposes(self, thresholds: Thresholds | None = None, method: str = "energy") -> Keyposes:
         """The keyposes by some thresholds, those of the options if none are given."""
