@@ -131,11 +131,32 @@ def svm(view: str) -> Learner:
 
 
 def minirocket() -> Learner:
-    from aeon.classification.convolution_based import MiniRocketClassifier
+    """MiniRocket's features, made once for both factors, and its ridge classifier on them."""
+    from aeon.transformations.collection.convolution_based import MiniRocket
+    from sklearn.linear_model import RidgeClassifierCV
+    from sklearn.pipeline import make_pipeline
+    from sklearn.preprocessing import StandardScaler
 
-    return classifiers(
-        lambda: MiniRocketClassifier(random_state=0), lambda x: np.ascontiguousarray(x.transpose(0, 2, 1)), ELASTIC_RAW
-    )
+    def series(segments: Segments) -> np.ndarray:
+        return np.ascontiguousarray(_paths(segments, ELASTIC_RAW).transpose(0, 2, 1))
+
+    def train(segments: Segments, rng: np.random.Generator) -> Callable[[Segments], list[Said]]:
+        features = MiniRocket(random_state=0)
+        values = np.asarray(features.fit_transform(series(segments)))
+        heads = [
+            make_pipeline(StandardScaler(with_mean=False), RidgeClassifierCV(np.logspace(-3, 3, 10))) for _ in FACTORS
+        ]
+        for head, factor in zip(heads, FACTORS, strict=True):
+            head.fit(values, labels(segments, factor))
+
+        def answer(probes: Segments) -> list[Said]:
+            values = np.asarray(features.transform(series(probes)))
+            names = [one.predict(values).tolist() for one in heads]
+            return said(names, [_confidence(one, values) for one in heads])
+
+        return answer
+
+    return train
 
 
 ELASTIC_RAW, ELASTIC_COURSE = "elastic poses", "elastic course"

@@ -14,6 +14,8 @@ from onbeat.keyposes.judging import AnswersDocument
 from onbeat.keyposes.lowdim_document import LowdimDocument
 from onbeat.keyposes.threshold_file import LearnedDocument
 from onbeat.music.song import SongDocument
+from onbeat.retime.document import RetimeDocument
+from onbeat.retime.observe_document import ObserveDocument
 
 PAGE = Path(__file__).parent / "documents.md"
 
@@ -44,6 +46,8 @@ DOCUMENTS = (
     Document("keyposes.json", KeyposesDocument, "Written by `onbeat keyposes MOTION -o FOLDER`."),
     Document("thresholds.json", LearnedDocument, "Written by `onbeat keyposes learn … -o thresholds.json`."),
     Document("lowdim.json", LowdimDocument, "Written by `onbeat lowdim MOTIONS… -o FOLDER`."),
+    Document("observe.json", ObserveDocument, "Written by `onbeat observe MOTIONS… -o FOLDER`."),
+    Document("retime.json", RetimeDocument, "Written by `onbeat retime MOTION … -o FOLDER` beside the motion."),
     Document("answers.json", AnswersDocument, "Saved by `judge.html`, read by `onbeat lowdim --judged`."),
     Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),
 )
@@ -77,6 +81,8 @@ def table(schema: dict[str, Any]) -> str:
 
 def kind(schema: dict[str, Any]) -> str:
     """A type in words."""
+    if "anyOf" in schema and not any("$ref" in one for one in schema["anyOf"]):
+        return " or ".join(kind(one) for one in schema["anyOf"])
     if "$ref" in schema or "allOf" in schema or "anyOf" in schema:
         ref = schema.get("$ref") or (schema.get("allOf") or schema["anyOf"])[0]["$ref"]
         return f"`{ref.rsplit('/', 1)[-1]}`"

@@ -18,9 +18,9 @@ SOURCE = ROOT / "src" / "onbeat"
 FILES = sorted(SOURCE.rglob("*.py"))
 
 FLOORS = (
-    {"errors", "_shapes", "files"},
+    {"errors", "_shapes", "files", "quadratic"},
     {"motion", "music"},
-    {"capture"},
+    {"capture", "limits"},
     {"formats", "keyposes", "retime", "robots", "metrics", "examples"},
     {"moves", "recognition"},
     {"dance"},
@@ -28,7 +28,7 @@ FLOORS = (
     {"cli"},
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
-ON_THE_GROUND = {"files": {"errors"}}
+ON_THE_GROUND = {"files": {"errors"}, "quadratic": {"_shapes"}}
 """The modules of the ground floor may know each other in this order only."""
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc", "tools", "process"}
 LONGEST, MEDIAN, MEDIAN_FUNCTION = 400, 150, 12

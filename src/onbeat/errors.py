@@ -37,3 +37,7 @@ class MissingExtraError(OnbeatError):
 
 class MetricError(OnbeatError):
     """Something that cannot be measured: times out of order, shapes that disagree."""
+
+
+class LimitError(OnbeatError):
+    """Limits of joints that cannot be, cannot be read, or are missing for a joint."""

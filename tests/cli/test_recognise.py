@@ -11,37 +11,24 @@ import pytest
 
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.performer import perform
-from onbeat.examples.repertoire import CLAPS, STAR, SWAY
-from onbeat.formats import write_motion
+from onbeat.examples.repertoire import CLAPS, SWAY
+from onbeat.formats import write_markers, write_motion
+from onbeat.motion import Markers
+from onbeat.motion.mirror import mirrored
+from taught_steps import HEAD, write_steps
 
 Run = Callable[..., tuple[int, str, str]]
-HEAD = "file,from,to,task,person,cycle\n"
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Three dancers, two steps, three cycles: two to learn from, one to try; and a step that nobody taught."""
-    place, rng = tmp_path_factory.mktemp("steps"), np.random.default_rng(0)
-    rows: dict[str, list[str]] = {"taught": [], "tried": [], "other": []}
-    for dancer in DANCERS[:3]:
-        for figure in (CLAPS, SWAY, STAR):
-            clip = perform(dancer, [figure], 1.0, 3, rng, 30.0)
-            name = f"{dancer.name} {figure.name}.npz"
-            write_motion(clip.motion, place / name)
-            for cycle in range(3):
-                start, end = clip.beats[2 + 4 * cycle], clip.beats[5 + 4 * cycle]
-                row = f"{name},{start:.3f},{end:.3f},{figure.name},{dancer.name},{cycle}"
-                rows["other" if figure is STAR else "tried" if cycle == 2 else "taught"].append(row)
-    (place / "bare.csv").write_text("file,from,to\nAiko claps.npz,1,2\n")
-    for name, lines in rows.items():
-        (place / f"{name}.csv").write_text(HEAD + "\n".join(lines) + "\n")
-    return place
+    return write_steps(tmp_path_factory.mktemp("steps"))
 
 
 @pytest.fixture(scope="module")
 def model(folder: Path) -> Path:
     """Learned once."""
-    from onbeat.cli.recognise import train_command
+    from onbeat.cli.recognise_train import train_command
 
     train_command([folder / "taught.csv"], output=folder / "model.npz")
     return folder / "model.npz"
@@ -102,4 +89,107 @@ def test_what_cannot_be_is_one_clear_line(
     assert status == 1
     assert message in err
     assert "Traceback" not in err
+    assert out == ""
+
+
+def test_a_model_may_take_left_and_right_for_one(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    status, out, _ = onbeat(
+        "recognise", "train", folder / "taught.csv", "-o", tmp_path / "m.npz", "--mirrored", "joined"
+    )
+    assert status == 0
+    assert "left and right joined" in out
+    for side in ("", " mirrored"):
+        file = tmp_path / f"sway{side}.npz"
+        clip = perform(DANCERS[1], [SWAY], 1.0, 1, np.random.default_rng(4), 30.0).motion
+        write_motion(mirrored(clip) if side else clip, file)
+    _, out, _ = onbeat("recognise", tmp_path / "m.npz", tmp_path / "sway.npz", tmp_path / "sway mirrored.npz", "--json")
+    rows = json.loads(out)["segments"]
+    assert rows[0]["task"]["matches"] == rows[1]["task"]["matches"]
+    assert rows[0]["task"]["matches"][0]["name"] == "sway"
+
+
+def test_whole_dances_are_cut_at_their_keyposes_to_learn_from(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    rng = np.random.default_rng(8)
+    rows = []
+    for dancer in DANCERS[:2]:
+        for figure in (CLAPS, SWAY):
+            clip = perform(dancer, [figure], 1.0, 4, rng, 30.0)
+            write_motion(clip.motion, tmp_path / f"{dancer.name} {figure.name}.npz")
+            rows.append(f"{dancer.name} {figure.name}.npz,,,{figure.name},{dancer.name},0")
+            beats = "".join(f"{beat:.6f}\n" for beat in clip.beats)
+            (tmp_path / f"{dancer.name} {figure.name}.beats").write_text(beats)
+    (tmp_path / "dances.csv").write_text(HEAD + "\n".join(rows) + "\n")
+    cut = ("--span", 2, "--cycle", 4)
+    status, out, err = onbeat("recognise", "train", tmp_path / "dances.csv", "-o", tmp_path / "m.npz", *cut)
+    assert status == 0, err
+    assert "2 persons" in out
+    assert "no music given" not in err  # the beats beside each file are taken
+    status, out, _ = onbeat("recognise", "evaluate", tmp_path / "m.npz", tmp_path / "dances.csv", *cut, "--json")
+    assert status == 0
+    document = json.loads(out)
+    names = set(document["task"]["confusion"])
+    assert {"claps/1", "sway/1"} <= names
+    assert names <= {f"{figure}/{place}" for figure in ("claps", "sway") for place in (1, 2, 3, 4)}
+    assert document["task"]["right"] >= 0.9 * document["task"]["of"]
+
+
+def test_confusion_matrices_are_drawn_the_same_each_time(
+    onbeat: Run, folder: Path, model: Path, tmp_path: Path
+) -> None:
+    for place in ("a", "b"):
+        status, _, err = onbeat("recognise", "evaluate", model, folder / "tried.csv", "-o", tmp_path / place)
+        assert (status, err) == (0, "")
+    for name in ("task.png", "task.svg", "person.png", "person.svg"):
+        drawn = (tmp_path / "a" / name).read_bytes()
+        assert len(drawn) > 2000
+        assert drawn == (tmp_path / "b" / name).read_bytes()
+
+
+def test_a_stream_gives_a_line_for_each_segment(onbeat: Run, folder: Path, model: Path) -> None:
+    file = folder / "Bruno sway.npz"
+    status, out, _ = onbeat("recognise", model, file, "--span", 3, "--stream")
+    assert status == 0
+    lines = [json.loads(line) for line in out.splitlines()]
+    _, out, _ = onbeat("recognise", model, file, "--span", 3, "--json")
+    offline = json.loads(out)["segments"]
+    assert abs(len(lines) - len(offline)) <= 2
+    for line in lines:
+        same = min(offline, key=lambda row: abs(row["to"] - line["to"]))
+        if abs(same["to"] - line["to"]) + abs(same["from"] - line["from"]) < 1e-3:
+            assert line["task"]["matches"][0]["name"] == same["task"]["matches"][0]["name"]
+
+
+def test_markers_of_a_whole_body_are_recognised_as_it_is(
+    onbeat: Run, folder: Path, model: Path, tmp_path: Path
+) -> None:
+    clip = perform(DANCERS[0], [CLAPS], 1.0, 1, np.random.default_rng(4), 60.0)
+    few = ("hips", "knee")
+    write_motion(clip.motion, tmp_path / "claps.c3d")
+    status, out, err = onbeat("recognise", model, tmp_path / "claps.c3d", "--json")
+    assert status == 0, err
+    assert json.loads(out)["segments"][0]["task"]["matches"][0]["name"] == "claps"
+    write_markers(Markers(few, np.zeros((30, 2, 3)), 30.0), tmp_path / "few.trc")
+    status, _, err = onbeat("recognise", model, tmp_path / "few.trc")
+    assert status == 1
+    assert "leave the file out" in err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("model.npz", "Aiko claps.npz", "--stream"), "--stream goes through one motion file"),
+        (("model.npz", "Aiko claps.npz", "--stream", "--span", "2", "--json"), "lines of JSON already"),
+        (("train", "taught.csv", "-o", "x.npz", "--cycle", "8"), "--cycle 8"),
+        (("train", "taught.csv", "-o", "x.npz", "--span", "2", "--cycle", "0"), "--cycle 0"),
+        (("train", "beyond.csv", "-o", "x.npz", "--span", "2"), "the motion lasts"),
+        (("train", "taught.csv", "-o", "x.npz", "--span", "40"), "has no 41 keyposes in a row"),
+    ],
+)
+def test_what_cannot_be_cut_is_one_clear_line(
+    onbeat: Run, folder: Path, model: Path, words: tuple[str, ...], message: str
+) -> None:
+    paths = [folder / word if word.endswith((".npz", ".csv")) else word for word in words]
+    status, out, err = onbeat("recognise", *paths)
+    assert status == 1
+    assert message in err
     assert out == ""

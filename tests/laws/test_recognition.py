@@ -12,7 +12,9 @@ from made_segments import made, renamed
 from onbeat.recognition.hosvd import hosvd, unfold
 from onbeat.recognition.mirroring import joined, mirrored
 from onbeat.recognition.open_set import learn
+from onbeat.recognition.recogniser import Recogniser
 from onbeat.recognition.tensor import TensorModel
+from recognition_takes import takes
 
 SEEDS = st.integers(0, 2**32 - 1)
 MODES = ("task", "person")
@@ -109,3 +111,24 @@ def test_joining_forgets_the_side_and_nothing_else(seed: int):
     assert np.array_equal(mirrored(mirrored(segments)).positions, segments.positions)
     assert np.array_equal(joined(segments).positions, joined(mirrored(segments)).positions)
     assert np.array_equal(joined(joined(segments)).positions, joined(segments).positions)
+
+
+@settings(max_examples=6, deadline=None)
+@given(SEEDS, st.booleans(), st.integers(1, 2))
+def test_a_recogniser_knows_no_names(seed: int, across: bool, count: int):
+    segments, rng = takes(count, seed=seed, tasks=3, people=3, noise=0.05), np.random.default_rng(seed)
+    of: dict[str, dict[str, str]] = {}
+    for mode in MODES:
+        names = sorted(set(getattr(segments, mode)))
+        of[mode] = dict(zip(names, [names[i] for i in rng.permutation(len(names))], strict=True))
+    other = renamed(segments, of["task"], of["person"])
+    before, after = (
+        Recogniser.train(some, np.random.default_rng(0), across=across).predict(takes(1, seed=seed + 1))
+        for some in (segments, other)
+    )
+    for a, b in zip(before, after, strict=True):
+        assert np.allclose(a.margins, b.margins, atol=1e-6)
+        for mode in MODES:
+            chances = ({m.name: m.probability for m in getattr(one, f"{mode}_scores")} for one in (a, b))
+            mine, theirs = chances
+            assert np.allclose([mine[name] for name in mine], [theirs[of[mode][name]] for name in mine], atol=1e-6)

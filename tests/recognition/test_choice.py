@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from onbeat.recognition.choice import Compared, Option, nearest
+from onbeat.recognition.choice import Compared, nearest
 from onbeat.recognition.folds import by_repetition, crossing, merged, thinned
 from onbeat.recognition.recogniser import Recogniser
 from onbeat.recognition.subspace import Basis, Subspace
@@ -59,9 +59,9 @@ def test_a_fold_learns_from_its_own_segments_only():
     some = takes(2)
     compared = Compared.of(some)
     classes, learned = np.unique(some.task, return_inverse=True)[1], np.flatnonzero(np.arange(len(some)) % 2)
-    for option in (("posture", 0.1), ("elastic course", 0.0)):
-        found = compared.distances(Option(*option), learned, np.array([0]), np.where(classes == 1, 0, classes), 4)
-        assert np.isinf(found[0, 1])
+    for view in ("posture", "elastic course"):
+        for found in compared.distances(view, learned, np.array([0]), np.where(classes == 1, 0, classes), 4):
+            assert np.isinf(found[0, 1])
 
 
 def test_people_who_differ_by_posture_alone_are_told_by_it():
@@ -75,3 +75,24 @@ def test_people_who_differ_by_posture_alone_are_told_by_it():
     assert model.person is not None
     assert {option.view for option in model.person.choice.options} & {"posture", "outline", "elastic poses"}
     assert model.person.choice.accuracy == 1
+
+
+def test_shrinkages_share_their_directions_and_give_the_same():
+    values, classes = rng().normal(size=(20, 6)), np.arange(20) % 3
+    several = Subspace.each(values, classes, 4, (0.01, 0.3))
+    for one, shrinkage in zip(several, (0.01, 0.3), strict=True):
+        alone = Subspace.of(values, classes, 4, shrinkage)
+        covariance = sum(np.cov(values[classes == c].T, ddof=0) * (classes == c).sum() for c in range(3)) / 17
+        wide = (1 - shrinkage) * covariance + shrinkage * np.trace(covariance) / 6 * np.eye(6)
+        away = values[0] - values[classes == 1].mean(axis=0)
+        assert abs(one.distances(values[:1], np.zeros(1))[0, 1] - np.sqrt(away @ np.linalg.solve(wide, away))) < 1e-9
+        np.testing.assert_allclose(one.distances(values, np.zeros(20)), alone.distances(values, np.zeros(20)))
+
+
+def test_people_hardly_known_across_tasks_are_taken_by_the_very_cell_where_nothing_is_repeated():
+    some, names = takes(1, noise=0.005), sorted(set(takes(1).person))
+    tasks, people = (np.unique(of, return_inverse=True)[1] for of in (some.task, some.person))
+    mixed = replace(some, person=tuple(names[i] for i in (tasks + people) % 4))  # another in each task
+    model = Recogniser.train(mixed, rng())
+    assert model.person is not None
+    assert [option.view for option in model.person.choice.options] == ["outline", "elastic course"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
@@ -31,10 +32,18 @@ def test_columns_may_be_in_any_order_and_some_left_out(tmp_path: Path):
     assert (label.start, label.end, label.task, label.person, label.cycle) == (1, 2, "", "", 0)
 
 
+def test_a_stretch_without_seconds_is_the_whole_file(tmp_path: Path):
+    rows = read_labels(written(tmp_path, HEAD + "x.bvh,,,bow,Aiko,0\nx.bvh,2,,bow,Aiko,1\nx.bvh,,2,bow,Aiko,1\n"))
+    assert [(row.start, row.end) for row in rows] == [(0, np.inf), (2, np.inf), (0, 2)]
+    (row,) = read_labels(written(tmp_path, "file,task\nx.bvh,bow\n"))
+    assert (row.start, row.end, row.task) == (0, np.inf, "bow")
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("", ":1: no column file, from, to"),
+        ("", ":1: no column file"),
+        ("file,to\nx,1\n", ":1: no column from"),
         ("file,from\nx,1\n", ":1: no column to"),
         (HEAD, "no label found"),
         (HEAD + "x.bvh,0,1\n", ":2: 3 values found, 6 expected"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from onbeat.recognition.novelty import Novelty, auroc, shares, sharpness
+from onbeat.recognition.novelty import Novelty, auroc, one_more, shares, sharpness
 
 
 def test_the_threshold_lies_between_two_kinds_that_are_apart():
@@ -37,3 +37,26 @@ def test_shares_are_sharper_where_the_scores_are_better():
     vague = apart + np.random.default_rng(0).normal(0, 2, apart.shape)
     assert sharpness(apart, own) > sharpness(vague, own)
     np.testing.assert_allclose(shares(vague, 3.0).sum(axis=1), 1.0)
+
+
+def test_a_bound_on_the_known_is_judged_by_what_is_new():
+    rng = np.random.default_rng(0)
+    bound, new = rng.normal(0, 1, 2000), rng.normal(1.5, 0.3, 2000)
+    loose, strict = (Novelty.of(bound, new, bound=how) for how in (False, True))
+    assert strict.threshold <= loose.threshold
+    assert (~strict.known(new)).mean() >= 0.94
+    near = Novelty.of(bound, rng.normal(-3, 0.3, 2000), bound=True)
+    assert near.known(bound).mean() >= 0.5
+
+
+def test_among_one_class_more_the_nearest_is_nearer():
+    rng = np.random.default_rng(0)
+    # The least of n uniform distances falls as 1 / n.
+    scores = np.log(rng.uniform(size=(200_000, 5)))
+    assert abs(np.median(one_more(scores[:, :4])) - np.median(scores.min(axis=1))) < 0.1
+    assert np.median(one_more(scores[:, :4])) < np.median(scores[:, :4].min(axis=1))
+
+
+def test_one_class_alone_and_none_stay_as_they_are():
+    assert one_more(np.array([[0.3, np.inf], [np.inf, np.inf]])).tolist() == [0.3, np.inf]
+    assert one_more(np.array([[0.3]])).tolist() == [0.3]

@@ -9,7 +9,7 @@ import pytest
 
 from made_segments import POINTS, made
 from onbeat.errors import MetricError
-from onbeat.recognition.pupil import alignment, compare
+from onbeat.recognition.pupil import alignment, compare, lateness_by_element, pairing
 from onbeat.recognition.segments import Segments
 
 
@@ -83,3 +83,27 @@ def test_what_cannot_be_compared_is_refused():
     for band in (-0.1, 1.1, np.nan):
         with pytest.raises(MetricError, match="band"):
             compare(one, one, band)
+
+
+def test_the_part_that_is_late_is_told_from_those_that_are_not():
+    u = np.linspace(0, 1, 41)
+    places = np.array(smooth(41).positions)
+    places[0, :, 2] = np.stack([np.interp(u - 0.1, u, axis) for axis in places[0, :, 2].T], axis=1)  # a tenth of 2 s
+    places[:, :, 4] = 0.3
+    master = smooth(41).positions.copy()
+    master[:, :, 4] = 0.3
+    late = lateness_by_element(replace(smooth(41), positions=places), replace(smooth(41), positions=master))
+    assert late[2] == pytest.approx(0.2, abs=0.05)
+    assert np.isnan(late[4])
+    assert np.abs(late[[0, 1, 3, 5]]).max() == 0
+
+
+def test_the_pairs_go_from_the_first_moment_to_the_last_and_never_back():
+    pairs = pairing(smooth(warp=-0.06), smooth())
+    assert pairs.shape == (1, 32)
+    assert pairs[0, 0] < 1
+    assert pairs[0, -1] > 30
+    assert (np.diff(pairs[0]) >= 0).all()
+    assert pairs[0, 10:22].mean() < np.arange(10, 22).mean() - 1  # who is late is met earlier in the master's time
+    with pytest.raises(MetricError, match="a band of -1"):
+        pairing(smooth(), smooth(), -1)

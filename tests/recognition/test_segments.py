@@ -91,7 +91,7 @@ def test_lists_that_disagree_and_no_motion_are_refused():
         segments_of([motion], [(0, 1), (1, 2)], [""], [""], [0])
     with pytest.raises(MetricError, match="one at least"):
         segments_of([], [], [], [], [])
-    with pytest.raises(MetricError, match="start and body"):
+    with pytest.raises(MetricError, match="start, body, ground"):
         one(motion, 0, 1, frame="world")
     with pytest.raises(MetricError, match="3 at least"):
         one(motion, 0, 1, moments=2)

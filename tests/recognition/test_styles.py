@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from made_segments import cycles_of, danced, made
 from onbeat.errors import MetricError
+from onbeat.formats import read_motion
 from onbeat.recognition.segments import Segments, segments_of
-from onbeat.recognition.styles import danced_by, restyled, style_matrix, task_vectors
+from onbeat.recognition.styles import danced_by, restyled, style_matrix, style_model, task_vectors
 from onbeat.recognition.tensor import TensorModel
 
 
@@ -97,3 +99,27 @@ def test_further_modes_are_averaged():
     same = replace(segments, positions=segments.positions)
     a, b = (restyled(model, same, "person 0", "person 1") for model in (plain, more))
     assert np.allclose(a, b, atol=1e-6)
+
+
+def test_ranks_are_chosen_by_what_was_not_seen():
+    segments = made(people=5, tasks=6, takes=1, noise=0.4, without=[(4, 5)])
+    chosen, whole = style_model(segments), TensorModel.fit(segments)
+    truth = made(people=5, tasks=6, takes=1, noise=0.0)
+    wanted = of(truth, "person 4", "task 5").positions[0]
+    errors = [np.square(m.reconstruct("task 5", "person 4") - wanted).mean() for m in (chosen, whole)]
+    assert errors[0] <= errors[1] * 1.05
+    assert style_model(segments).parts.core.shape == chosen.parts.core.shape
+    one = style_model(made(people=1, tasks=1, takes=1))
+    assert one.categories("task") == ("task 0",)
+
+
+def test_a_gesture_in_a_style_it_was_never_seen_in_is_nearer_to_the_real_one(data: Path):
+    files = [file for file in sorted((data / "bandai").glob("*_001.bvh")) if not file.name.startswith("dance")]
+    motions = [read_motion(file) for file in files]
+    task, person, _ = zip(*(file.stem.split("_") for file in files), strict=True)
+    spans = [(0.0, (len(motion) - 1) / motion.fps) for motion in motions]
+    segments = segments_of(motions, spans, task, person, [0] * len(files))
+    gone = np.array([(t, p) == ("wave-left-hand", "elderly") for t, p in zip(task, person, strict=True)])
+    made_ = style_model(segments[~gone]).reconstruct("wave-left-hand", "elderly")
+    real, neutral = (of(segments, who, "wave-left-hand").positions[0] for who in ("elderly", "normal"))
+    assert np.sqrt(np.square(made_ - real).mean()) < 0.6 * np.sqrt(np.square(neutral - real).mean())

@@ -1,6 +1,6 @@
 // Written by `python -m onbeat.viewer.typescript` from contract.py. Do not edit.
 
-export const VERSION = 2;
+export const VERSION = 3;
 
 /** A tapering capsule between two joints of the page; see :mod:`onbeat.viewer.shape`. */
 export interface CapsuleData {
@@ -65,6 +65,31 @@ export interface MetricData {
   value: string;
 }
 
+/** A second body on the stage, as many frames as the first: its joints, its shape and its path. */
+export interface BodyData {
+  joints: string[];
+  capsules: CapsuleData[];
+  path: PathData;
+  spine: number[];
+}
+
+/** How far each joint is off: uint8 ``q`` (frames, joints) in base64, ``most q / 254`` cm; 255 where unknown. */
+export interface HeatData {
+  base64: string;
+  most: number;
+  scale: string[];
+  unknown: string;
+}
+
+/** The dancer held against another: how far off its joints are, and the other one's body in the same place. */
+export interface ComparedData {
+  name: string;
+  heat: HeatData;
+  body: BodyData;
+  who: string;
+  captions: string[];
+}
+
 /** Everything the page shows. */
 export interface PageData {
   version: number;
@@ -92,4 +117,5 @@ export interface PageData {
   music_intensity: CurveData;
   motion_intensity: CurveData;
   metrics: MetricData[];
+  compared: ComparedData | null;
 }

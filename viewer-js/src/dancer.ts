@@ -3,9 +3,15 @@
 import * as THREE from "three";
 import type { CapsuleData, PageData } from "./contract";
 import { readPath } from "./data";
+import type { Heat } from "./heat";
 import { Trunk, type Tube } from "./trunk";
 
 const UP = new THREE.Vector3(0, 1, 0);
+const TINT = new THREE.Color();
+const AROUND = 28; // faces around a capsule
+
+/** What a body is made of, and when. */
+export type Body = Pick<PageData, "joints" | "capsules" | "path" | "spine" | "frames" | "fps" | "floor">;
 
 interface Limb {
   data: CapsuleData;
@@ -24,14 +30,19 @@ export class Dancer {
   private readonly trunk?: Trunk;
   private readonly spine: THREE.Vector3[];
 
-  constructor(private readonly page: PageData) {
+  /** With `heat` the body is coloured by it; else all in one `skin`, or in the colours of its clothes. */
+  constructor(
+    private readonly page: Body,
+    private readonly heat?: Heat,
+    private readonly skin?: THREE.Material,
+  ) {
     this.path = readPath(page.path);
     this.joints = new Float32Array(page.joints.length * 3);
     this.interpolate(0);
     this.limbs = page.capsules.map((data) => this.limb(data));
     this.spine = page.spine.map(() => new THREE.Vector3());
     if (page.spine.length > 1) {
-      this.trunk = new Trunk(material(page.capsules.find(({ group }) => group === "torso")?.colour));
+      this.trunk = new Trunk(this.material(page.capsules.find(({ group }) => group === "torso")?.colour));
       this.group.add(this.trunk.mesh);
       for (const { data, mesh } of this.limbs) mesh.visible = data.group !== "torso";
     }
@@ -40,6 +51,7 @@ export class Dancer {
 
   pose(time: number): void {
     this.interpolate(time);
+    this.heat?.read(time);
     const along = new THREE.Vector3();
     this.limbs.forEach(({ data, mesh, length, tube }, i) => {
       const { a, b } = tube;
@@ -51,6 +63,7 @@ export class Dancer {
       mesh.scale.y = length > 0.01 ? now / length : 1;
       this.ends[2 * i].set(a.x, a.y, a.z, data.radius_a);
       this.ends[2 * i + 1].set(b.x, b.y, b.z, data.radius_b);
+      if (this.heat && mesh.visible) this.warm(this.heat, data, mesh);
     });
     this.page.spine.forEach((joint, i) => this.spine[i].fromArray(this.joints, 3 * joint));
     this.centre.copy(this.spine[0]);
@@ -67,13 +80,32 @@ export class Dancer {
     const tubes = this.limbs.filter(({ data }) => data.group === "torso").map(({ tube }) => tube);
     const hips = this.limbs.find(({ data }) => data.group === "hips")?.tube ?? tubes[0];
     this.trunk.wrap(tubes, this.spine, hips);
+    if (this.heat) this.trunk.warm(this.heat, this.page.spine);
+  }
+
+  /** Colours a capsule from one joint's level to the other's. */
+  private warm(heat: Heat, data: CapsuleData, mesh: THREE.Mesh): void {
+    const colours = mesh.geometry.attributes.color as THREE.BufferAttribute;
+    const row = AROUND + 1;
+    for (let first = 0; first < colours.count; first += row) {
+      const part = data.start + (data.end - data.start) * (first < colours.count / 2 ? 0 : 1);
+      heat.colour(heat.between(data.a, data.b, part), TINT);
+      for (let i = 0; i < row; i++) colours.setXYZ(first + i, TINT.r, TINT.g, TINT.b);
+    }
+    colours.needsUpdate = true;
+  }
+
+  private material(colour = "#ee5c42"): THREE.Material {
+    if (this.skin) return this.skin;
+    if (this.heat) return new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.7 });
+    return new THREE.MeshStandardMaterial({ color: colour, roughness: 0.7 });
   }
 
   private limb(data: CapsuleData): Limb {
     const tube = { a: new THREE.Vector3(), b: new THREE.Vector3(), radiusA: data.radius_a, radiusB: data.radius_b };
     this.span(data, tube.a, tube.b);
     const length = tube.a.distanceTo(tube.b);
-    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), material(data.colour));
+    const mesh = new THREE.Mesh(capsule(length, data.radius_a, data.radius_b), this.material(data.colour));
     mesh.castShadow = mesh.receiveShadow = true;
     this.group.add(mesh);
     this.ends.push(new THREE.Vector4(), new THREE.Vector4());
@@ -107,13 +139,9 @@ export class Dancer {
   }
 }
 
-function material(colour = "#ee5c42"): THREE.Material {
-  return new THREE.MeshStandardMaterial({ color: colour, roughness: 0.7 });
-}
-
 /** A surface of revolution about y: two spheres at 0 and `length` and the cone that touches both. */
 function capsule(length: number, radiusA: number, radiusB: number): THREE.BufferGeometry {
-  const [arc, around] = [10, 28];
+  const [arc, around] = [10, AROUND];
   const tilt = Math.asin(Math.min(Math.max((radiusA - radiusB) / Math.max(length, 1e-6), -0.98), 0.98));
   const profile: [radius: number, y: number, angle: number][] = [];
   for (let i = 0; i <= arc; i++) {
@@ -140,6 +168,7 @@ function capsule(length: number, radiusA: number, radiusB: number): THREE.Buffer
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
   geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(points.length).fill(1), 3));
   geometry.setIndex(faces);
   return geometry;
 }

@@ -9,7 +9,7 @@ const AHEAD = 0.001; // [s] by which a keypose may be ahead and still be the one
 const BACK = 0.5; // [s] of playing within which stepping back goes to the keypose before
 const SIDE = 0.42; // [rad] that pictures are taken off the body's front
 const [WIDTH, HEIGHT] = [54, 60]; // [px] of a picture
-const SHAPES: Record<string, string> = { global: "round", local: "square" };
+const SHAPES: Record<string, string> = { global: "round", local: "square", kept: "round" };
 
 export class Keyposes {
   private readonly times: number[];

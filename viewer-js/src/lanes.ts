@@ -112,7 +112,7 @@ export function drawStops(pen: Pen, span: Span, page: PageData, middle: number, 
   });
 }
 
-export const KEYPOSE_COLOURS: Record<string, string> = { global: "#1f3f77", local: "#c2611a" };
+export const KEYPOSE_COLOURS: Record<string, string> = { global: "#1f3f77", local: "#c2611a", kept: "#1f3f77" };
 const OTHER = "#5b6472";
 
 /** Numbered marks, round or square as what rests there, on lines down to `bottom`; dots where they would crowd. */

@@ -70,6 +70,9 @@ function expose(
     duration: page.duration,
     names: page.joints,
     joints: Array.from(stage.dancer.joints),
+    heat: Array.from(stage.heat?.levels ?? []),
+    master: stage.master?.place ?? null,
+    other: Array.from(stage.master?.dancer.joints ?? []),
   });
   Object.assign(window, { onbeat: { state, seek, play: () => clock.play(), pause: () => clock.pause() } });
 }

@@ -3,7 +3,7 @@
 import type { Clicks } from "./clicks";
 import type { Clock } from "./clock";
 import type { ClipColours } from "./colours";
-import type { PageData } from "./contract";
+import type { ComparedData, PageData } from "./contract";
 import { lastBefore } from "./data";
 import type { Keyposes } from "./keyposes";
 import type { Stage } from "./stage";
@@ -49,6 +49,7 @@ export class Panel {
     on("previous", () => this.keyposes.step(-1));
     on("next", () => this.keyposes.step(1));
     at("clicks").hidden = !this.clicks.possible;
+    this.showCompared();
     text("speed", "1×");
     at("overview").setAttribute("aria-valuemax", page.duration.toFixed(1));
     addEventListener("keydown", (event) => this.key(event));
@@ -96,7 +97,7 @@ export class Panel {
     const curves = [page.music_intensity.base64, page.motion_intensity.base64];
     const energy = page.energy ? "there" : "";
     const there = [page.beats, page.stops, page.joins, energy, energy, page.keyposes, ...curves];
-    for (const [sign, colour, short, words] of LEGEND.filter((_, i) => there[i].length > 0)) {
+    for (const [sign, colour, short, words] of legend(page).filter((_, i) => there[i].length > 0)) {
       at("key").append(entry(sign, colour, short));
       at("legend").append(entry(sign, colour, words));
     }
@@ -107,6 +108,27 @@ export class Panel {
       at("metrics").append(name, value);
     }
     at("figures").hidden = false;
+  }
+
+  private showCompared(): void {
+    const compared = this.page.compared;
+    document.body.classList.toggle("compared", compared !== null);
+    if (!compared) return;
+    this.stage.heat?.legend(at("heat"), compared.name, compared.who);
+    on("master", () => this.nextMaster());
+    at("master").title = `The ${compared.who} beside, over as a ghost, or hidden (m)`;
+    text("who", compared.who);
+    this.tellPlace(compared);
+  }
+
+  private nextMaster(): void {
+    if (!this.stage.master) return;
+    this.stage.nextMaster();
+    this.tellPlace(this.page.compared as ComparedData);
+  }
+
+  private tellPlace({ who }: ComparedData): void {
+    text("master", `${who.charAt(0).toUpperCase()}${who.slice(1)}: ${this.stage.master?.place}`);
   }
 
   private toggle(): void {
@@ -145,6 +167,7 @@ export class Panel {
       End: () => this.seek(this.page.duration),
       f: () => this.toggleFollow(),
       c: () => this.toggleClicks(),
+      m: () => this.nextMaster(),
       "[": () => this.keyposes.step(-1),
       "]": () => this.keyposes.step(1),
       p: () => this.keyposes.step(-1), // where brackets are hard to type
@@ -155,6 +178,17 @@ export class Panel {
     event.preventDefault(); // else space would press the button last clicked, too
     action();
   }
+}
+
+/** Where two are compared joins are of segments, keyposes are of the other, and the last curve is no intensity. */
+function legend(page: PageData): typeof LEGEND {
+  if (!page.compared) return LEGEND;
+  const others: Record<string, [short: string, words: string]> = {
+    join: ["segment", "where a segment begins"],
+    keypose: ["keypose", `keypose of the ${page.compared.who}; grey where it cannot be kept`],
+    dance: ["distance", `mean distance from the ${page.compared.who}`],
+  };
+  return LEGEND.map(([sign, colour, short, words]) => [sign, colour, ...(others[short] ?? [short, words])]);
 }
 
 function entry(sign: string, colour: string, words: string): HTMLElement {

@@ -3,8 +3,11 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { PageData } from "./contract";
+import { Caption } from "./caption";
 import { Dancer } from "./dancer";
 import { Ground } from "./ground";
+import { Heat } from "./heat";
+import { Master } from "./master";
 
 const FOLLOW = 1.6; // [1/s] how fast the camera goes after the dancer
 const FIELD_OF_VIEW = 30; // [degrees]
@@ -12,6 +15,8 @@ const FIELD_OF_VIEW = 30; // [degrees]
 export class Stage {
   follow = true;
   readonly dancer: Dancer;
+  readonly heat?: Heat;
+  readonly master?: Master;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 200);
@@ -19,6 +24,7 @@ export class Stage {
   private readonly ground: Ground;
   private readonly sun = new THREE.DirectionalLight("#fff4e6", 2.1);
   private readonly target = new THREE.Vector3();
+  private readonly captions: Caption[] = [];
   private drawn = -1; // [s] the time last drawn
 
   constructor(
@@ -28,7 +34,14 @@ export class Stage {
     this.renderer = rendererOn(canvas);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    this.dancer = new Dancer(page);
+    if (page.compared) this.heat = new Heat(page.compared.heat, page.joints.length, page.fps);
+    this.dancer = new Dancer(page, this.heat);
+    if (page.compared) {
+      this.master = new Master(page.compared, page, this.dancer.height);
+      this.scene.add(this.master.dancer.group);
+      this.captions = page.compared.captions.map((words) => new Caption(words, page.floor, this.dancer.height));
+      for (const { sprite } of this.captions) this.scene.add(sprite);
+    }
     this.ground = new Ground(page.floor);
     this.scene.add(this.dancer.group, this.ground.group);
     this.addLights();
@@ -44,20 +57,45 @@ export class Stage {
 
   draw(time: number, seconds: number, sinceBeat: number, strength: number): void {
     this.dancer.pose(time);
-    const centre = this.dancer.centre;
+    this.master?.pose(time);
+    this.caption();
+    const centre = this.middle();
     if (this.follow) this.goAfter(centre, 1 - Math.exp(-FOLLOW * seconds));
     this.sun.target.position.set(centre.x, centre.y, this.page.floor + 0.8);
     this.sun.position.copy(this.sun.target.position).add(new THREE.Vector3(...this.lightFrom()));
-    this.ground.update(centre, this.dancer.ends, sinceBeat, strength);
+    const ends = [...this.dancer.ends, ...(this.master?.ends() ?? [])];
+    this.ground.update(this.dancer.centre, ends, sinceBeat, strength);
     const turned = this.controls.update(seconds || undefined);
     if (!turned && time === this.drawn) return; // a paused page must not heat a phone
     this.drawn = time;
     this.renderer.render(this.scene, this.camera);
   }
 
+  /** Names under both; one is enough where they are in the same place. */
+  private caption(): void {
+    const apart = this.master?.place === "beside";
+    this.captions.forEach((caption, i) => {
+      caption.sprite.visible = i === 0 || apart;
+      caption.put(i === 0 || !this.master ? this.dancer.centre : this.master.dancer.centre.clone().add(this.master.shift));
+    });
+  }
+
   /** Bring the camera to the dancer at once, as after a seek. */
   catchUp(): void {
-    if (this.follow) this.goAfter(this.dancer.centre, 1);
+    if (this.follow) this.goAfter(this.middle(), 1);
+  }
+
+  /** Puts the master beside the dancer, over it, or away. */
+  nextMaster(): void {
+    this.master?.next();
+    this.drawn = -1;
+    this.catchUp();
+  }
+
+  /** What the camera looks at: the dancer, or half-way to who stands beside. */
+  private middle(): THREE.Vector3 {
+    const half = this.master?.shift.clone().multiplyScalar(0.5) ?? new THREE.Vector3();
+    return half.add(this.dancer.centre);
   }
 
   private goAfter(centre: THREE.Vector3, part: number): void {
@@ -72,9 +110,10 @@ export class Stage {
     const rim = new THREE.DirectionalLight("#dfe8ff", 0.8);
     rim.position.set(...this.aside(2.5, 3.0));
     const sun = this.sun;
+    const wide = this.master ? 2.8 : 1.8;
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
-    Object.assign(sun.shadow.camera, { left: -1.8, right: 1.8, top: 1.8, bottom: -1.8, near: 0.5, far: 12 });
+    Object.assign(sun.shadow.camera, { left: -wide, right: wide, top: wide, bottom: -wide, near: 0.5, far: 12 });
     sun.shadow.radius = 5;
     sun.shadow.bias = -0.0005;
     sun.shadow.normalBias = 0.02;
@@ -95,8 +134,9 @@ export class Stage {
   private placeCamera(): void {
     const height = this.dancer.height;
     const yaw = this.page.facing + 0.42;
-    this.target.set(this.dancer.centre.x, this.dancer.centre.y, this.page.floor + 0.5 * height);
-    const narrow = Math.min(this.camera.aspect / 0.74, 1);
+    const middle = this.middle();
+    this.target.set(middle.x, middle.y, this.page.floor + 0.5 * height);
+    const narrow = Math.min(this.camera.aspect / (this.master ? 1.4 : 0.74), 1);
     const away = (0.78 * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
     const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
     this.camera.position.copy(this.target).addScaledVector(out, away);

@@ -1,6 +1,7 @@
 // The trunk as one skin around its capsules: rays from the spine end where the capsules, softly merged, begin.
 
 import * as THREE from "three";
+import type { Heat } from "./heat";
 
 const AROUND = 40;
 const ALONG = 20; // rows from the hem to the neck
@@ -22,6 +23,8 @@ export class Trunk {
   readonly mesh: THREE.Mesh;
   private readonly points: Float32Array;
   private readonly normals: Float32Array;
+  private readonly colours = new Float32Array(ROWS * AROUND * 3).fill(1);
+  private readonly tint = new THREE.Color();
   private readonly reach: Float32Array; // [m] where each ray last ended
   private soft = 1; // [m]
   private readonly gradient = new THREE.Vector3();
@@ -35,6 +38,7 @@ export class Trunk {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(this.points, 3).setUsage(THREE.DynamicDrawUsage));
     geometry.setAttribute("normal", new THREE.BufferAttribute(this.normals, 3).setUsage(THREE.DynamicDrawUsage));
+    geometry.setAttribute("color", new THREE.BufferAttribute(this.colours, 3).setUsage(THREE.DynamicDrawUsage));
     const faces: number[] = [];
     for (let row = 0; row + 1 < ROWS; row++) {
       for (let i = 0; i < AROUND; i++) {
@@ -75,6 +79,17 @@ export class Trunk {
     }
     this.mesh.geometry.attributes.position.needsUpdate = true;
     this.mesh.geometry.attributes.normal.needsUpdate = true;
+  }
+
+  /** Colours the skin row by row, from level to level of the joints up the spine. */
+  warm(heat: Heat, joints: readonly number[]): void {
+    for (let row = 0; row < ROWS; row++) {
+      const at = Math.min(Math.max(row - 1, 0) / (ALONG - 1), 1) * (joints.length - 1);
+      const joint = Math.min(Math.floor(at), joints.length - 2);
+      heat.colour(heat.between(joints[joint], joints[joint + 1], at - joint), this.tint);
+      for (let i = 0; i < AROUND; i++) this.tint.toArray(this.colours, 3 * (row * AROUND + i));
+    }
+    this.mesh.geometry.attributes.color.needsUpdate = true;
   }
 
   /** Where the rays of a row begin, and how steeply they rise. */

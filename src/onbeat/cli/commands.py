@@ -36,8 +36,18 @@ COMMANDS = {
     ),
     "recognise": (
         "onbeat.cli.recognise:recognise_app",
-        "Say which step is danced, and by whom, or that it is something or somebody new.",
+        "Say which step is danced and by whom, or that it is new; hold a pupil against a master; move styles.",
         "onbeat recognise model.npz unknown.bvh",
+    ),
+    "observe": (
+        "onbeat.cli.observe:observe_command",
+        "Observe takes of a dance at several speeds: which details go in faster music, which poses stay.",
+        "onbeat observe slow_1.bvh slow_2.bvh fast_1.bvh fast_2.bvh -o observed",
+    ),
+    "retime": (
+        "onbeat.cli.retime:retime_command",
+        "Play a dance faster or slower, or to other music, inside the body's limits; keyposes stay what they are.",
+        "onbeat retime dance.csv --robot g1 --speed 1.2 -o faster",
     ),
     "evaluate": (
         "onbeat.cli.evaluate:evaluate_command",
@@ -53,6 +63,11 @@ COMMANDS = {
         "onbeat.cli.info:info_command",
         "Say what is in a motion file: body, rate, unit, roles, contacts, and what is wrong with it.",
         "onbeat info dance.bvh",
+    ),
+    "robots": (
+        "onbeat.cli.robots:robots_command",
+        "List the robots that are known by name, or what the joints of one can do: how far, how fast.",
+        "onbeat robots g1",
     ),
 }
 """Of each command: where it is, what it does in a sentence, and an example."""

@@ -61,24 +61,29 @@ def read_dance(path: Path, flags: BeatFlags, local: bool = True) -> tuple[Motion
 
     Without ``local`` markers need no known labels.
     """
+    source = _source(path, flags.fps)
+    return source, *beats_of(source, flags, local)
+
+
+def beats_of(source: Motion | Markers, flags: BeatFlags, local: bool = True) -> tuple[Times, Times]:
+    """The beats on the clock of a motion, and those of them that are known to be downbeats."""
     if flags.music and flags.beats:
         raise OnbeatError(f"--music {flags.music} and --beats {flags.beats}: give one of them")
     if not math.isfinite(flags.song_at) or (flags.song_at and not (flags.music or flags.beats)):
         raise OnbeatError(
             f"--song-at {flags.song_at:g}: give the second of the motion at which --music or --beats begin"
         )
-    source = _source(path, flags.fps)
     if flags.beats:
         listed = read_beats(flags.beats)
         down = listed.times[listed.places == 1] if listed.places is not None else np.zeros(0)
-        return source, listed.times + flags.song_at, down + flags.song_at
+        return listed.times + flags.song_at, down + flags.song_at
     if flags.music:
         song = _heard(flags.music)
-        return source, song.beats + flags.song_at, song.downbeats + flags.song_at
+        return song.beats + flags.song_at, song.downbeats + flags.song_at
     found = motion_beats(source, local)
     tempo = 60.0 / float(np.median(np.diff(found)))
     print(f"no music given: {len(found)} beats from the motion itself, {tempo:.0f} a minute", file=sys.stderr)  # noqa: T201
-    return source, found, np.zeros(0)
+    return found, np.zeros(0)
 
 
 def _source(path: Path, fps: float | None) -> Motion | Markers:

@@ -15,12 +15,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import piqp
 from scipy.sparse import csc_matrix, eye_array
 
 from onbeat._shapes import Array, Times
 from onbeat.dance.plan import DancePlan
 from onbeat.errors import PlanError
+from onbeat.quadratic import minimise
 
 SLOWEST, FASTEST = 0.75, 1.35
 """Playback rates between which the dance stays, the plan's own rates included."""
@@ -163,15 +163,16 @@ def _solve(knots: Times, low: Array, high: Array, beats: Times, stops: Times) ->
     square = at.T @ at / SIGMA**2 + SMOOTH * bend.T @ bend + EASE * rate.T @ rate
     linear = -(at.T @ stops) / SIGMA**2 - EASE * (rate.T @ np.ones(count - 1))
     ends = csc_matrix(([1.0, 1.0], ([0, 1], [0, count - 1])), shape=(2, count))
-    solver = piqp.SparseSolver()
-    solver.settings.eps_abs = 1e-9
-    solver.setup(
-        csc_matrix(square), np.asarray(linear), ends, np.array([0.0, knots[-1]]), csc_matrix(rate), low, high,
-        knots - REACH, knots + REACH,
-    )  # fmt: skip
-    if solver.solve() != piqp.PIQP_SOLVED:
+    values = minimise(
+        square,
+        np.asarray(linear),
+        rate,
+        (low, high),
+        equal=(ends, np.array([0.0, knots[-1]])),
+        box=(knots - REACH, knots + REACH),
+    )
+    if values is None:
         raise PlanError("no time warp keeps its limits; play the plan as it is with --no-warp")
-    values = np.asarray(solver.result.x)
     rates = np.clip(np.diff(values) / step, low, high)  # what the solver leaves of its tolerance
     values = np.concatenate(([0.0], np.cumsum(rates * step)))
     return Warp(knots, values + (knots[-1] - values[-1]) * knots / knots[-1])

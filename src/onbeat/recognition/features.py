@@ -12,13 +12,10 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from onbeat._shapes import Array, Positions
-from onbeat.errors import MetricError
-from onbeat.motion import rotations as rot
-from onbeat.motion.body import frames_from
 from onbeat.recognition.segments import Segments
+from onbeat.recognition.trunk import NEEDED as NEEDED
+from onbeat.recognition.trunk import seen_from_trunk
 
-NEEDED = ("hips", "left_shoulder", "right_shoulder", "left_hip", "right_hip")
-"""The elements that the body's own frame is read off."""
 _STILL = 0.01  # body sizes per second: speeds below are as good as none
 _SPEED, _TEMPO = 0.3, 0.1  # what a factor of e in an element's speed, and in the tempo, weighs in body sizes
 
@@ -39,16 +36,7 @@ def in_body(segments: Segments) -> Positions:
     >>> in_body(one)[0, 0, 5].round(6).tolist()
     [-1.0, 1.0, 1.0]
     """
-    missing = [name for name in NEEDED if name not in segments.elements]
-    if missing:
-        raise MetricError(
-            f"the segments have no {', '.join(missing)}, which tell where the body faces; "
-            f"they have {', '.join(segments.elements)}"
-        )
-    at = [segments.elements.index(name) for name in NEEDED]
-    hips, *sides = (segments.positions[:, :, index] for index in at)
-    frames = frames_from((sides[0] + sides[1]) / 2 - hips, sides[1] - sides[0] + sides[3] - sides[2])
-    return rot.rotate(rot.inverse(frames)[:, :, None], segments.positions - hips[:, :, None])
+    return seen_from_trunk(segments.positions, segments.elements)
 
 
 def _posture(inside: Positions, durations: Array) -> Array:

@@ -1,7 +1,8 @@
 """The embedded troupe made hard to recognise: dancers who are not quite themselves, in others' bodies, off the beat.
 
 The troupe as written dances every cycle alike, and any nearest neighbour knows it again. A real dancer is never twice
-the same; how much not so is one number here, and measurements sweep it.
+the same; how much not so is one number here, and measurements sweep it. What is danced is made hard by
+``VARIATIONS``: six tasks that share their course but for one hand in one keypose.
 """
 
 from __future__ import annotations
@@ -27,6 +28,18 @@ STYLE = ("amplitude", "stride", "lag", "softness", "hold", "overshoot", "bounce"
          "ornaments", "wrist")  # fmt: skip
 """The numbers of a dancer that vary from take to take."""
 RATE = 30.0
+VARIATIONS = tuple(
+    replace(FOLK_DANCE, name=name, hands={**FOLK_DANCE.hands, **other})
+    for name, other in (
+        ("as ever", {}),
+        ("out at 1", {1: "hip side | low side"}),
+        ("up at 4", {4: "across | side up"}),
+        ("down at 5", {5: "chest | side low"}),
+        ("up at 6", {6: "side up | across"}),
+        ("ahead at 8", {8: "punch | high front"}),
+    )
+)
+"""The folk dance and five variations of it: one hand elsewhere in one of its eight keyposes."""
 
 
 def hard_troupe(
@@ -51,6 +64,8 @@ def hard_troupe(
     >>> some = hard_troupe(0.5, np.random.default_rng(0), FIGURES[:1], takes=1)
     >>> len(some), some.task[0], some.person[:3]
     (8, 'folk dance', ('Aiko', 'Bruno', 'Carla'))
+    >>> sorted(set(hard_troupe(0.5, np.random.default_rng(0), VARIATIONS, takes=1).task))[:3]
+    ['ahead at 8', 'as ever', 'down at 5']
     """
     beat = 60.0 / TEMPO
     made = [

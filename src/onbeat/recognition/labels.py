@@ -5,8 +5,8 @@
     file,from,to,task,person,cycle
     dances/aiko.bvh,0.58,1.73,bow,Aiko,0
 
-``file`` is seen from the label file's folder, ``from`` and ``to`` are seconds. Task, person and cycle may be left
-empty or out: not known, and 0.
+``file`` is seen from the label file's folder, ``from`` and ``to`` are seconds; left empty, or both columns left out,
+they are the file's start and end. Task, person and cycle may be left empty or out, too: not known, and 0.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ import numpy as np
 from onbeat.errors import FormatError
 from onbeat.formats.text import small_text
 
-_NEEDED = ("file", "from", "to")
-_COLUMNS = (*_NEEDED, "task", "person", "cycle")
+_NEEDED, _BOTH = ("file",), ("from", "to")
+_COLUMNS = (*_NEEDED, *_BOTH, "task", "person", "cycle")
 _LARGEST = 1 << 26  # bytes: a million lines
 
 
@@ -32,19 +32,19 @@ class Label(NamedTuple):
     Parameters
     ----------
     file : the motion file.
-    start, end : seconds.
+    start, end : seconds; infinity for the file's end.
     task, person : "" where they are not known.
     cycle : which repetition.
-    line : of the label file, for messages.
+    line : of the label file, for messages; 0 for none.
     """
 
     file: Path
     start: float
     end: float
-    task: str
-    person: str
-    cycle: int
-    line: int
+    task: str = ""
+    person: str = ""
+    cycle: int = 0
+    line: int = 0
 
 
 def read_labels(path: str | Path) -> list[Label]:
@@ -61,7 +61,8 @@ def read_labels(path: str | Path) -> list[Label]:
     rows = csv.reader(text.split("\n"))
     try:
         names = [name.strip().lower() for name in next(rows, [])]
-        missing = [name for name in _NEEDED if name not in names]
+        needed = (*_NEEDED, *(_BOTH if any(name in names for name in _BOTH) else ()))
+        missing = [name for name in needed if name not in names]
         if missing:
             raise FormatError(
                 f"{path}:1: no column {', '.join(missing)}; the first line names the columns: {','.join(_COLUMNS)}"
@@ -83,7 +84,8 @@ def _label(path: Path, line: int, names: list[str], row: list[str]) -> Label:
     cell = {name: value.strip() for name, value in zip(names, row, strict=True)}
     if not cell["file"] or "\0" in cell["file"]:
         raise FormatError(f"{path}:{line}: no file is named; write the motion file's path")
-    start, end = _number(path, line, cell, "from"), _number(path, line, cell, "to")
+    start = _number(path, line, cell, "from") if cell.get("from") else 0.0
+    end = _number(path, line, cell, "to") if cell.get("to") else np.inf
     if not start < end:
         raise FormatError(f"{path}:{line}: from {start:g} to {end:g} s; the end has to be after the start")
     cycle = _number(path, line, {"cycle": cell.get("cycle") or "0"}, "cycle")

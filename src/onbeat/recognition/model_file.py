@@ -7,7 +7,7 @@ import os
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 import numpy as np
@@ -17,6 +17,7 @@ from onbeat.errors import FormatError
 from onbeat.files import write_atomically
 from onbeat.recognition.choice import Choice, Option
 from onbeat.recognition.features import ELASTIC, FLAT, NEEDED
+from onbeat.recognition.joined_sides import JoinedSides
 from onbeat.recognition.novelty import Novelty
 from onbeat.recognition.recogniser import Expert, Learned, Recogniser
 from onbeat.recognition.subspace import Basis, Subspace
@@ -24,22 +25,27 @@ from onbeat.recognition.subspace import Basis, Subspace
 FORMAT, VERSION = "onbeat recogniser", 1
 LARGEST = 1 << 30
 """Bytes of all arrays together; more is not read."""
+_FARTHEST, _LARGEST = 1e15, 1e50  # of places, and of any number
 _HEADER = "header"
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # the same arrays make the same bytes
 
 
+_Moderate = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
+_Positive = Annotated[float, msgspec.Meta(ge=0, le=1e9)]
+
+
 class _View(msgspec.Struct, forbid_unknown_fields=True):
     view: str
-    shrinkage: float
-    scale: Annotated[float, msgspec.Meta(gt=0)]
+    shrinkage: _Positive
+    scale: Annotated[float, msgspec.Meta(gt=1e-12, le=1e12)]
 
 
 class _Factor(msgspec.Struct, forbid_unknown_fields=True):
     names: Annotated[list[str], msgspec.Meta(min_length=1)]
     views: Annotated[list[_View], msgspec.Meta(min_length=1)]
-    threshold: float | None
-    slope: float
-    sharpness: float
+    threshold: _Moderate | None
+    slope: _Moderate
+    sharpness: _Positive
     accuracy: float | None
     auroc: float | None
 
@@ -49,6 +55,7 @@ class _Header(msgspec.Struct):
     version: int
     elements: list[str]
     moments: Annotated[int, msgspec.Meta(ge=3)]
+    mirrored: Literal["apart", "joined"] = "apart"
     task: _Factor | None = None
     person: _Factor | None = None
 
@@ -63,7 +70,8 @@ def save_recogniser(recogniser: Recogniser, path: str | os.PathLike[str]) -> Non
     """
     arrays: dict[str, np.ndarray] = {}
     factors = {name: _packed(name, getattr(recogniser, name), arrays) for name in ("task", "person")}
-    header = _Header(FORMAT, VERSION, list(recogniser.elements), recogniser.moments, **factors)
+    sides = "joined" if isinstance(recogniser, JoinedSides) else "apart"
+    header = _Header(FORMAT, VERSION, list(recogniser.elements), recogniser.moments, sides, **factors)
     arrays = {_HEADER: np.frombuffer(msgspec.json.encode(header), np.uint8), **arrays}
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -99,7 +107,7 @@ def _packed(factor: str, expert: Expert | None, arrays: dict[str, np.ndarray]) -
 
 
 def load_recogniser(path: str | os.PathLike[str]) -> Recogniser:
-    """Read a recogniser.
+    """Read a recogniser; one to which left and right are the same is a :class:`JoinedSides`.
 
     Raises
     ------
@@ -116,7 +124,8 @@ def load_recogniser(path: str | os.PathLike[str]) -> Recogniser:
         ]
     except (KeyError, ValueError) as error:
         raise _damaged(path, str(error)) from None
-    return Recogniser(tuple(header.elements), header.moments, experts[0], experts[1])
+    kind = JoinedSides if header.mirrored == "joined" else Recogniser
+    return kind(tuple(header.elements), header.moments, experts[0], experts[1])
 
 
 def _damaged(path: Path, why: str) -> FormatError:
@@ -183,6 +192,9 @@ def _learned(view: str, prefix: str, arrays: Mapping[str, np.ndarray], header: _
         kept = directions.shape[1]
         basis = Basis(_numbers(arrays, prefix + "mean", (width,)), directions)
         centres = _numbers(arrays, prefix + "centres", (count, kept), finite=False)
+        told = np.isfinite(centres)
+        if not told.all(axis=1).any() or (told.any(axis=1) & ~told.all(axis=1)).any():
+            raise ValueError(f"{prefix}centres has no class with members, or one that is infinite in part")
         whitener, outside = (
             _numbers(arrays, prefix + n, s) for n, s in (("whitener", (kept, kept)), ("outside", (1,)))
         )
@@ -203,6 +215,8 @@ def _numbers(arrays: Mapping[str, np.ndarray], name: str, shape: tuple[int, ...]
     fits = values.ndim == len(shape) and all(n in (-1, m) for n, m in zip(shape, values.shape, strict=True))
     if values.dtype != np.float64 or not fits:
         raise ValueError(f"{name} is {values.dtype} {values.shape}, not float64 {shape}")
-    if np.isnan(values).any() or (finite and np.isinf(values).any()):
-        raise ValueError(f"{name} has a value that is not a number")
+    # Squares of what is farther are no numbers any more; an infinite centre is that of a class without members.
+    far = np.abs(values) > (_FARTHEST if name.endswith("references") else _LARGEST)
+    if np.isnan(values).any() or (far & (np.isfinite(values) | finite)).any():
+        raise ValueError(f"{name} has a value that is not a number, or far beyond all bodies")
     return values

@@ -16,6 +16,8 @@ from onbeat._shapes import Array, Bools, Ints
 QUANTILES = np.arange(0.80, 0.996, 0.005)
 """The shares of known segments that may lie within the threshold; 0.95 where training has nothing new to try."""
 _USUAL = 0.95
+MISSED = 0.05
+"""The share of new segments that may be taken for known where it is not known how near the known ones are."""
 _SHARPNESS = np.geomspace(0.25, 64.0, 33)
 
 
@@ -27,10 +29,17 @@ class Novelty:
     slope: float
 
     @classmethod
-    def of(cls, known: Array, new: Array) -> Novelty:
+    def of(cls, known: Array, new: Array, *, bound: bool = False) -> Novelty:
         """Learn from cross-validated scores (K,) of known and (N,) of new segments, lower nearer.
 
         Without known ones nothing can be called new: the threshold is infinite.
+
+        Parameters
+        ----------
+        known, new : scores, of any number.
+        bound : whether ``known`` is only a bound, for what will be asked about is nearer by an unknown amount. Then the
+            threshold is set from the other side, where all but ``MISSED`` of the new ones lie beyond it, if that is
+            lower; but never so low that half of ``known`` do.
 
         Examples
         --------
@@ -47,6 +56,8 @@ class Novelty:
             right = (known[:, None] <= limits).mean(axis=0) + (new[:, None] > limits).mean(axis=0)
             best = np.flatnonzero(right >= right.max() - 1e-9)
             threshold = float(limits[best[-1]])
+            if bound:
+                threshold = min(threshold, max(float(np.quantile(new, MISSED)), float(np.median(known))))
         return cls(threshold, _slope(threshold - known, new - threshold))
 
     def margin(self, scores: Array) -> Array:
@@ -60,6 +71,26 @@ class Novelty:
     def probability(self, scores: Array) -> Array:
         """That the class is a known one, 0.5 at the threshold."""
         return 1 / (1 + np.exp(-np.clip(self.slope * self.margin(scores), -50, 50)))
+
+
+def one_more(scores: Array) -> Array:
+    """(S,) the least of scores (S, C) as it would be among one class more.
+
+    A segment whose class was left out has one class fewer to be near to than a new one will have. The least of n random
+    distances falls as a power of n, so its logarithm, which scores are, falls with log n: by what one class more has
+    brought (the second least less the least, in one of n draws), less than that for the next.
+
+    >>> one_more(np.array([[0.0, 0.3, 1.0, np.inf]])).round(3).tolist()  # the infinite one is its own
+    [-0.071]
+    """
+    ordered = np.sort(scores, axis=1)
+    count = np.isfinite(ordered).sum(axis=1)
+    several, found = count > 1, ordered[:, 0].copy()
+    if several.any():
+        n = count[several]
+        step = ordered[several, 1] - ordered[several, 0]
+        found[several] -= step / n * np.log1p(1 / n) / -np.log1p(-1 / n)
+    return found
 
 
 def _slope(known: Array, new: Array) -> float:

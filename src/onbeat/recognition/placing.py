@@ -10,10 +10,10 @@ from onbeat.errors import MetricError
 from onbeat.keyposes.playable import playable
 from onbeat.keyposes.vectors import PoseVectors, pose_vectors
 from onbeat.motion import rotations as rot
-from onbeat.motion.body import Body, facing, frames_from
+from onbeat.motion.body import Body, facing
 from onbeat.motion.motion import Motion
+from onbeat.recognition.trunk import NEEDED, seen_from_trunk, trunk
 
-_FRAME = ("hips", "left_shoulder", "right_shoulder", "left_hip", "right_hip")
 _FEET = ("left_ankle", "right_ankle", "left_toe", "right_toe")
 _STILL = 1e-9
 _LONGEST = 600.0  # seconds of a segment
@@ -25,11 +25,11 @@ def placed(points: Positions, elements: tuple[str, ...], base: Motion, seconds: 
     The body's trunk follows the points', then each joint is turned as :func:`onbeat.keyposes.playable.playable` tells.
     It starts where ``base`` starts and faces where it faces, its feet as low as those of ``base``. What the points do
     not tell (fingers, twists about bones) is as in ``base``, stretched to the same length; so is the trunk's path where
-    they are seen from each moment's own frame and have none.
+    they are seen from each moment and have none.
 
     Parameters
     ----------
-    points : (T, E, 3) body sizes, seen from the segment's start (``frame="start"``) or each moment ("body").
+    points : (T, E, 3) body sizes, seen from the segment's start (``frame="start"``), or each moment ("body", "ground").
     elements : E names; hips, shoulders and hip joints are needed.
     base : a motion of the body, best one of the same task.
     seconds : how long the motion is to be.
@@ -43,7 +43,7 @@ def placed(points: Positions, elements: tuple[str, ...], base: Motion, seconds: 
         If the body lacks a role.
     """
     points = np.asarray(points, np.float64)
-    missing = [role for role in _FRAME if role not in elements]
+    missing = [role for role in NEEDED if role not in elements]
     if missing:
         raise MetricError(f"the segment has no {', '.join(missing)}: a body cannot be placed by the other points")
     if points.shape[1:] != (len(elements), 3) or len(points) < 2 or not np.isfinite(points).all():
@@ -57,9 +57,11 @@ def placed(points: Positions, elements: tuple[str, ...], base: Motion, seconds: 
     stretched = base.at(shares * (len(base) - 1) / base.fps)
     (own,) = pose_vectors([stretched])
     paths = _between(points, shares)
-    moved = _carried(stretched, own, paths * own.size, elements) if _has_path(points, elements) else stretched
+    moved = stretched
+    if _has_path(points, elements):
+        moved = _carried(stretched, own, paths * own.size, elements, _on_the_spot(points, elements))
     (own,) = pose_vectors([moved])
-    inside = _inside(paths, elements)
+    inside = seen_from_trunk(paths, elements)
     values = own.values.reshape(frames, -1, 3).copy()
     for element, name_ in enumerate(elements):
         if name_ in own.points:
@@ -73,31 +75,33 @@ def _between(points: Positions, shares: Array) -> Positions:
     return CubicSpline(np.linspace(0.0, 1.0, len(points)), points, axis=0)(shares)
 
 
-def _trunk(points: Positions, elements: tuple[str, ...]) -> tuple[Array, Positions]:
-    """The body-centre frame of points: (F, 4) rotations and (F, 3) origins."""
-    hips, shoulder_l, shoulder_r, hip_l, hip_r = (points[:, elements.index(role)] for role in _FRAME)
-    return frames_from((shoulder_l + shoulder_r) / 2 - hips, hip_r - hip_l + shoulder_r - shoulder_l), hips
-
-
 def _has_path(points: Positions, elements: tuple[str, ...]) -> bool:
     """Whether the trunk goes or turns at all: seen from its own frame it does not."""
-    frames, origins = _trunk(points, elements)
+    frames, origins = trunk(points, elements)
     turned = 1.0 - np.abs(np.sum(frames * frames[:1], axis=-1))
     return bool(turned.max() > _STILL or np.abs(origins - origins[:1]).max() > _STILL)
 
 
-def _inside(points: Positions, elements: tuple[str, ...]) -> Positions:
-    """(F, E, 3) the points seen from the body-centre frame of each frame."""
-    frames, origins = _trunk(points, elements)
-    return rot.rotate(rot.inverse(frames)[:, None], points - origins[:, None])
+def _on_the_spot(points: Positions, elements: tuple[str, ...]) -> bool:
+    """Whether the trunk leans and rises, but neither goes nor turns: so it is seen from the ground below it."""
+    frames, origins = trunk(points, elements)
+    return bool(np.ptp(origins[:, :2], axis=0).max() <= _STILL and np.abs(np.sin(facing(frames))).max() <= _STILL)
 
 
-def _carried(motion: Motion, own: PoseVectors, points: Positions, elements: tuple[str, ...]) -> Motion:
-    """The motion carried as a whole so that its trunk is where the points' is, from where it itself starts."""
-    frames, origins = _trunk(points, elements)
-    yaw = rot.yaw(facing(own.frames[:1]) - facing(frames[:1]))
+def _carried(
+    motion: Motion, own: PoseVectors, points: Positions, elements: tuple[str, ...], on_the_spot: bool
+) -> Motion:
+    """The motion carried as a whole so that its trunk is where the points' is, from where it itself starts.
+
+    Of points on the spot it keeps its own way and front.
+    """
+    frames, origins = trunk(points, elements)
+    first = slice(None) if on_the_spot else slice(1)
+    yaw = rot.yaw(facing(own.frames[first]) - facing(frames[first]))
     wanted = rot.multiply(yaw, frames)
     place = own.origins[:1] + rot.rotate(yaw, origins - origins[:1])
+    if on_the_spot:
+        place[:, :2] = own.origins[:, :2]
     turn = rot.multiply(wanted, rot.inverse(own.frames))
     rotations = motion.rotations.copy()
     rotations[:, 0] = rot.continuous(rot.normalise(rot.multiply(turn, rotations[:, 0])))

@@ -17,6 +17,7 @@ from onbeat.recognition.segments import Segments
 
 BAND = 0.2
 """How far a moment may be moved when segments are aligned, as a share of the segment."""
+_MOVES = 0.08  # body sizes, a hand's width or two: what keeps within is at rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,8 +81,7 @@ def compare(pupil: Segments, master: Segments, band: float = BAND) -> Comparison
     ([0.0], 0.2, [0.5])
     """
     a, b, elements = _common(pupil, master)
-    if not 0 <= band <= 1:
-        raise MetricError(f"a band of {band} found; 0 to 1 is needed")
+    _check_band(band)
     ways = alignment(a, b, band)
     moments = a.shape[1]
     flat = a.reshape(*a.shape[:2], -1)
@@ -90,6 +90,47 @@ def compare(pupil: Segments, master: Segments, band: float = BAND) -> Comparison
     lateness = weights @ np.arange(moments) - np.arange(moments)
     seconds = lateness * (master.durations / (moments - 1))[:, None]
     return Comparison(elements, np.linalg.norm(matched - b, axis=-1), seconds, pupil.sizes)
+
+
+def lateness_by_element(pupil: Segments, master: Segments, band: float = BAND) -> Array:
+    """(E,) seconds, how late each element by itself is, the more it moves the more it counts; as :func:`compare`.
+
+    NaN for an element that hardly moves: whether rest is late nobody can tell.
+
+    Examples
+    --------
+    >>> wave = np.sin(np.linspace(0, 2 * np.pi, 41))
+    >>> def waves(late):
+    ...     places = np.stack([np.roll(wave, late), 0 * wave], axis=1)[None, ..., None] * np.eye(3)[2]
+    ...     return Segments(places, [4.0], ("",), ("",), [0], ("left_wrist", "hips"), [6, 0])
+    >>> lateness_by_element(waves(3), waves(0)).round(1).tolist()
+    [0.3, nan]
+    """
+    a, b, elements = _common(pupil, master)
+    _check_band(band)
+    seconds = master.durations / (a.shape[1] - 1)
+    found: list[float] = []
+    for element in range(len(elements)):
+        mine, wanted = a[:, :, [element]], b[:, :, [element]]
+        ways = alignment(mine, wanted, band)
+        late = (ways / ways.sum(axis=2, keepdims=True)) @ np.arange(a.shape[1]) - np.arange(a.shape[1])
+        moved = np.linalg.norm(np.gradient(wanted[:, :, 0], axis=1), axis=-1)  # (S, T) body sizes a moment
+        extent = float(np.linalg.norm(np.ptp(wanted[:, :, 0], axis=1), axis=-1).max())
+        found.append(float((late * seconds[:, None] * moved).sum() / moved.sum()) if extent > _MOVES else np.nan)
+    return np.array(found)
+
+
+def pairing(pupil: Segments, master: Segments, band: float = BAND) -> Array:
+    """(S, T) moments, counted from 0: where the master is at each of the pupil's; as :func:`compare`."""
+    a, b, _ = _common(pupil, master)
+    _check_band(band)
+    ways = alignment(b, a, band)
+    return (ways / ways.sum(axis=2, keepdims=True)) @ np.arange(a.shape[1], dtype=np.float64)
+
+
+def _check_band(band: float) -> None:
+    if not 0 <= band <= 1:
+        raise MetricError(f"a band of {band} found; 0 to 1 is needed")
 
 
 def alignment(pupil: Array, master: Array, band: float = BAND) -> Array:

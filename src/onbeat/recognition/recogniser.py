@@ -230,7 +230,7 @@ def _expert(
     cell = crossed if across else by_cell(inner, outer, crossed, rng)
     repeated = crossed if across else by_repetition(_cells(few)[at], few.cycle[at], cell)
     folds = Folds(crossed, cell, repeated, left_out)
-    choice = choose(_part(compared, at), factor, numbers, len(names), folds)
+    choice = choose(_part(compared, at), factor, numbers, len(names), folds, repeats=across or repeated is not cell)
     kept = segments[np.array([bool(label) for label in labels], bool)]
     classes = _numbers([label for label in labels if label], names)
     return Expert(names, choice, _learn(kept, classes, len(names), choice.options, rng))

@@ -2,9 +2,10 @@
 
 Every segment is read at evenly spaced moments from its start to its end, at the points that all bodies share, in units
 of the body's size. Where the dancer stands and faces is taken out: places are seen from the hips at the segment's
-start, front along +Y (``frame="start"``: steps and turns stay in), or from the hips of every moment, upright with the
-trunk (``frame="body"``: only the pose stays). Left and right steps are different unless they are joined
-(:mod:`onbeat.recognition.mirroring`).
+start, front along +Y (``frame="start"``: steps and turns stay in), from the hips of every moment, upright with the
+trunk (``frame="body"``: only the pose stays), or from the ground below the hips of every moment (``frame="ground"``:
+leaning and height stay in, where the dancer goes and turns does not). Left and right steps are different unless they
+are joined (:mod:`onbeat.recognition.mirroring`).
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ from onbeat.motion.motion import Motion
 
 MOMENTS = 32
 """How many evenly spaced moments a segment is read at."""
-FRAMES = ("start", "body")
-"""What places are seen from: the body at the segment's start, or at each moment."""
+FRAMES = ("start", "body", "ground")
+"""What places are seen from: the body at the segment's start, at each moment, or the ground below it then."""
+_FEET = ("left_ankle", "right_ankle", "left_toe", "right_toe")
 _SHORTEST = 3  # frames of a segment: two speeds, so that it can turn back
 _FARTHEST = 1e6  # body sizes: farther is damage, and squares of it lose what is near
 _BRIEFEST, _LONGEST = 1e-4, 1e6  # seconds, and metres
@@ -166,7 +168,7 @@ def segments_of(
             f"{counts} motions, spans, tasks, persons and cycles; as many of each are needed, one at least"
         )
     if frame not in FRAMES:
-        raise MetricError(f"no frame {frame!r}; there are {' and '.join(FRAMES)}")
+        raise MetricError(f"no frame {frame!r}; there are {', '.join(FRAMES)}")
     if moments < _SHORTEST:
         raise MetricError(f"{moments} moments of a segment; {_SHORTEST} at least are needed")
     for number, (motion, span) in enumerate(zip(motions, spans, strict=True)):
@@ -196,6 +198,10 @@ def _read(motion: Motion, own: PoseVectors, times: Array, frame: str) -> Positio
     turns, origins = turns.reshape(*times.shape, 4), origins.reshape(*times.shape, 3)
     if frame == "start":
         turns, origins = rot.yaw(facing(turns[:, :1])), origins[:, :1]
+    elif frame == "ground":
+        low = points[..., [own.points.index(f) for f in _FEET if f in own.points], 2].min(axis=(1, 2))
+        turns, origins = rot.yaw(facing(turns)), origins.copy()
+        origins[..., 2] = low[:, None]
     return rot.rotate(rot.inverse(turns)[:, :, None], points - origins[:, :, None]) / own.size
 
 

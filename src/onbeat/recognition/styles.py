@@ -18,6 +18,48 @@ from onbeat.recognition.tensor import TensorModel
 
 RIDGE = 0.01
 """λ as a share of the mean squared length of the columns of A."""
+_LEFT_OUT, _LEAST_RANK = 24, 2
+
+
+def style_model(segments: Segments) -> TensorModel:
+    """The model that tells best what it has not seen: its ranks are chosen by leaving out one cell after the other.
+
+    All that are tried keep the positions whole and as many columns of people as of tasks. Which is nearest to the
+    cells left out, in the mean over up to 24 of them, is fitted to all.
+
+    Parameters
+    ----------
+    segments : S segments whose task and person are known.
+
+    Raises
+    ------
+    MetricError
+        If there is no segment, or a task or person is not known.
+
+    Examples
+    --------
+    >>> lifts = np.zeros((4, 3, 1, 3))
+    >>> lifts[:, :, 0, 2] = [[0, 1, 2], [0, 2, 4], [2, 1, 0], [4, 2, 0]]
+    >>> known = Segments(lifts, [1.0] * 4, ("up", "up", "down", "down"), "ABAB", [0] * 4, ("left_wrist",), [6])
+    >>> style_model(known).categories("person")
+    ('A', 'B')
+    """
+    pairs = np.array(list(zip(segments.task, segments.person, strict=True)), object).reshape(-1, 2)
+    tasks, people = (len(set(column.tolist())) for column in pairs.T)
+    most = min(tasks, people)
+    cells = sorted(set(map(tuple, pairs.tolist())))
+    cells = [cells[i] for i in np.unique(np.linspace(0, len(cells) - 1, _LEFT_OUT).astype(np.int64)).tolist()]
+    ranks = [(None, rank, rank) for rank in range(_LEAST_RANK, most)]
+    errors: list[list[float]] = []
+    for task, person in cells:
+        gone = np.asarray((pairs == (task, person)).all(axis=1))
+        rest = segments[~gone]
+        if task in rest.task and person in rest.person:
+            truth = segments[gone].positions.mean(axis=0)
+            made = [TensorModel.fit(rest, rank).reconstruct(task, person) for rank in (None, *ranks)]
+            errors.append([float(np.square(one - truth).mean()) for one in made])
+    chosen = int(np.mean(errors, axis=0).argmin()) if errors else 0
+    return TensorModel.fit(segments, (None, *ranks)[chosen])
 
 
 def style_matrix(model: TensorModel, person: str) -> Array:
@@ -74,7 +116,9 @@ def restyled(model: TensorModel, segments: Segments, source: str, target: str, k
     return (as_target + keep * (x - as_source)).reshape(len(x), model.moments, -1, 3)
 
 
-def danced_by(model: TensorModel, task: str, person: str, base: Motion, name: str = "") -> Motion:
+def danced_by(
+    model: TensorModel, task: str, person: str, base: Motion, name: str = "", seconds: float | None = None
+) -> Motion:
     """A playable motion: a task as a person of the model dances it, or would, on the body of ``base``.
 
     Feet stand where they should if the model is of segments seen from their start (``frame="start"``); those seen from
@@ -86,12 +130,13 @@ def danced_by(model: TensorModel, task: str, person: str, base: Motion, name: st
     task, person : that the model knows; whether it saw both together or not.
     base : a motion of the body that is to dance, see :func:`onbeat.recognition.placing.placed`.
     name : of the new motion.
+    seconds : how long it is to be; None for as long as the model guesses.
 
     Raises
     ------
     MetricError
-        If the model knows no such task or person, or lacks points that a body needs.
+        If the model knows no such task or person, lacks points that a body needs, or the length cannot be.
     """
-    seconds, _ = model.length(task, person)
+    long = model.length(task, person)[0] if seconds is None else seconds
     points = model.reconstruct(task, person)
-    return placed(points, model.elements, base, seconds, name or f"{task} by {person}")
+    return placed(points, model.elements, base, long, name or f"{task} by {person}")

@@ -8,6 +8,7 @@ outside of them counts as a direction in which nothing was ever seen to vary.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,6 +70,11 @@ class Subspace:
 
         The covariance is ``(1 − s) W + s t I``: W within the classes, t its mean variance.
         """
+        return cls.each(inside, classes, count, (shrinkage,))[0]
+
+    @classmethod
+    def each(cls, inside: Array, classes: Ints, count: int, shrinkages: Sequence[float]) -> list[Subspace]:
+        """The same for several shrinkages, which share their directions."""
         members = np.bincount(classes, minlength=count)
         sums = np.zeros((count, inside.shape[1]))
         np.add.at(sums, classes, inside)
@@ -77,10 +83,13 @@ class Subspace:
         within = inside - (means[classes] if free else inside.mean(axis=0))
         covariance = within.T @ within / max(free, 1)
         level = float(np.trace(covariance)) / max(inside.shape[1], 1) or 1.0
-        variances, turn = np.linalg.eigh((1 - shrinkage) * covariance)
-        whitener = turn / np.sqrt(np.maximum(variances, 0.0) + shrinkage * level)
-        centres = np.where(members[:, None] > 0, means @ whitener, np.inf)
-        return cls(centres, whitener, 1.0 / (shrinkage * level))
+        variances, turn = np.linalg.eigh(covariance)
+        turned, there = means @ turn, members[:, None] > 0
+        found: list[Subspace] = []
+        for share in shrinkages:
+            wide = np.sqrt(np.maximum((1 - share) * variances, 0.0) + share * level)
+            found.append(cls(np.where(there, turned / wide, np.inf), turn / wide, 1.0 / (share * level)))
+        return found
 
     def distances(self, inside: Array, rest: Array) -> Array:
         """(P, C) from coordinates (P, K) and what lies outside (P,) to each class.

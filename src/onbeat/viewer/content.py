@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from onbeat._shapes import Array, Float32, Ints
+from onbeat._shapes import Array, Float32, Ints, Times
 from onbeat.errors import BodyError, OnbeatError
 from onbeat.keyposes.extract import Keyposes
 from onbeat.motion import Body, Motion
@@ -19,6 +19,7 @@ from onbeat.viewer import mp3
 from onbeat.viewer.contract import (
     VERSION,
     AudioData,
+    BodyData,
     CapsuleData,
     CurveData,
     KeyposeData,
@@ -66,7 +67,7 @@ def page_data(
     moves = sorted(dance.moves, key=lambda move: move.at_s)
     body = _body(motion) if shape is None else None
     shape = capsules(motion.skeleton, body) if shape is None else shape
-    every = int(np.ceil(motion.fps / MAX_FPS - 1e-9))
+    every = thinning(motion)
     spine = _spine(body)
     joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
     positions = motion.positions[::every, joints]
@@ -92,12 +93,28 @@ def page_data(
         stops=_rounded(dance.stops),
         moves=moves,
         joins=_rounded([move.at_s for move in moves[1:]]),
-        keyposes=_keyposes(keyposes, motion, body, numbers),
+        keyposes=_keyposes(keyposes, motion, numbers),
         energy=None,
         music_intensity=_music_intensity(motion, song),
         motion_intensity=_motion_intensity(motion, body),
         metrics=_metrics(dance.metrics),
     )
+
+
+def thinning(motion: Motion) -> int:
+    """The page shows every so manieth frame."""
+    return int(np.ceil(motion.fps / MAX_FPS - 1e-9))
+
+
+def body_data(motion: Motion, every: int, group_colour: str) -> BodyData:
+    """A second body on the stage, all in one colour, every so many frames of it."""
+    body = _body(motion)
+    shape = capsules(motion.skeleton, body)
+    spine = _spine(body)
+    joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
+    drawn = [msgspec.structs.replace(_capsule(c, joints), colour=group_colour) for c in shape]
+    names = [motion.skeleton.names[joint] for joint in joints]
+    return BodyData(names, drawn, pack_path(motion.positions[::every, joints]), [joints.index(j) for j in spine])
 
 
 def _document(document: Mapping[str, Any] | None) -> DanceDocument:
@@ -157,14 +174,37 @@ def _beats(dance: DanceDocument, song: Song | None, keyposes: Keyposes | None) -
     return [] if keyposes is None else _rounded(keyposes.song_beats.tolist())
 
 
-def _keyposes(found: Keyposes | None, motion: Motion, body: Body | None, numbers: Ints | None) -> list[KeyposeData]:
-    if found is None or not len(found):
+def _keyposes(found: Keyposes | None, motion: Motion, numbers: Ints | None) -> list[KeyposeData]:
+    return [] if found is None else keypose_data(motion, found.times, found.beats, found.sources, numbers)
+
+
+def keypose_data(
+    motion: Motion, times: Times, beats: Ints, sources: Sequence[str], numbers: Ints | None = None
+) -> list[KeyposeData]:
+    """Keyposes (K,) as the page has them: their seconds, their beats from 0, and what rests there.
+
+    ``numbers`` are theirs where they are not 1, 2, 3, ….
+    """
+    if not len(times):
         return []
-    numbers = np.arange(1, len(found) + 1) if numbers is None else numbers
-    yaws = np.zeros(len(found)) if body is None else facing(body_frames(motion.at(found.times), body)[0])
-    times = np.minimum(found.times, motion.duration).round(4)
-    columns = (times.tolist(), numbers.tolist(), (found.beats + 1).tolist(), found.sources, yaws.round(3).tolist())
+    body = _body(motion)
+    numbers = np.arange(1, len(times) + 1) if numbers is None else numbers
+    yaws = np.zeros(len(times)) if body is None else facing(body_frames(motion.at(times), body)[0])
+    shown = np.minimum(times, motion.duration).round(4)
+    columns = (shown.tolist(), numbers.tolist(), (beats + 1).tolist(), sources, yaws.round(3).tolist())
     return [KeyposeData(*row) for row in zip(*columns, strict=True)]
+
+
+def distance_curve(distances: Array, motion: Motion) -> CurveData:
+    """Root of the mean square of distances (frames, points) over time, the largest being 1; NaN counts as none.
+
+    Each value is the largest of its tenth of a second, so that short peaks are not passed over.
+    """
+    mean = np.nan_to_num(np.sqrt(np.square(distances).mean(axis=1)))
+    times = _curve_times(motion)
+    values = mean[np.minimum(np.rint(times * motion.fps).astype(np.int64), len(mean) - 1)]
+    np.maximum.at(values, np.minimum(np.rint(motion.times * CURVE_RATE).astype(np.int64), len(values) - 1), mean)
+    return pack_curve(_to_unit(values), CURVE_RATE)
 
 
 def _curve_times(motion: Motion) -> Array:

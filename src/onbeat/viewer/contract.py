@@ -14,7 +14,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Positions
 
-VERSION = 2
+VERSION = 3
 STEPS = 65535
 """Largest quantised coordinate."""
 
@@ -90,6 +90,40 @@ class MetricData(msgspec.Struct, frozen=True):
     value: str
 
 
+class BodyData(msgspec.Struct, frozen=True):
+    """A second body on the stage, as many frames as the first: its joints, its shape and its path."""
+
+    joints: list[str]
+    capsules: list[CapsuleData]
+    path: PathData
+    spine: list[int]
+
+
+class HeatData(msgspec.Struct, frozen=True):
+    """How far each joint is off: uint8 ``q`` (frames, joints) in base64, ``most q / 254`` cm; 255 where unknown.
+
+    ``scale`` are the colours from 0 cm to ``most`` in even steps, ``unknown`` that of what is compared with nothing.
+    """
+
+    base64: str
+    most: float
+    scale: list[str]
+    unknown: str
+
+
+class ComparedData(msgspec.Struct, frozen=True):
+    """The dancer held against another: how far off its joints are, and the other one's body in the same place.
+
+    ``who`` is what the other is called on buttons; ``captions`` stand under both, none for an empty list.
+    """
+
+    name: str
+    heat: HeatData
+    body: BodyData
+    who: str = "master"
+    captions: list[str] = []
+
+
 class PageData(msgspec.Struct, frozen=True):
     """Everything the page shows.
 
@@ -122,9 +156,13 @@ class PageData(msgspec.Struct, frozen=True):
     music_intensity: CurveData
     motion_intensity: CurveData
     metrics: list[MetricData]
+    compared: ComparedData | None = None
 
 
-STRUCTS = (CapsuleData, PathData, CurveData, AudioData, MoveData, KeyposeData, EnergyData, MetricData, PageData)
+STRUCTS = (
+    CapsuleData, PathData, CurveData, AudioData, MoveData, KeyposeData, EnergyData, MetricData, BodyData, HeatData,
+    ComparedData, PageData,
+)  # fmt: skip
 """All classes of the contract, parts before the whole."""
 
 
@@ -149,6 +187,13 @@ def unpack_path(path: PathData, joints: int) -> Positions:
     """The positions (frames, joints, 3) in metres that the page will see."""
     quantised = np.frombuffer(base64.b64decode(path.base64), "<u2").reshape(-1, joints, 3)
     return np.array(path.origin) + path.step * quantised
+
+
+def pack_heat(centimetres: Array, most: float, scale: list[str], unknown: str) -> HeatData:
+    """Distances (frames, joints) in cm as 8 bits each, the step ``most / 254``; NaN is unknown."""
+    levels = np.rint(np.nan_to_num(np.clip(centimetres / most, 0, 1)) * 254)
+    quantised = np.where(np.isnan(centimetres), 255, levels).astype(np.uint8)
+    return HeatData(_base64(quantised.tobytes()), most, scale, unknown)
 
 
 def pack_curve(values: Array, rate: float) -> CurveData:

@@ -1,0 +1,73 @@
+"""``onbeat recognise train``: learn tasks and persons from labelled motion."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import cyclopts
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from onbeat.cli.keypose_input import NO_BEATS, BeatFlags
+from onbeat.cli.progress import warnings_as_lines
+from onbeat.cli.recognise_input import Cut, read_segments
+from onbeat.cli.recognise_output import Flag, Paths, screen
+from onbeat.errors import OnbeatError
+from onbeat.recognition.joined_sides import JoinedSides
+from onbeat.recognition.model_file import save_recogniser
+from onbeat.recognition.recogniser import Recogniser
+
+
+def train_command(
+    labels: Paths,
+    /,
+    *,
+    output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])],
+    across: Flag = False,
+    mirrored: Literal["apart", "joined"] = "apart",
+    span: int | None = None,
+    cycle: int | None = None,
+    flags: BeatFlags = NO_BEATS,
+    seed: int = 0,
+) -> None:
+    """Learn tasks and persons from labelled stretches of motion files.
+
+    Example: ``onbeat recognise train labels.csv -o model.npz``
+
+    Parameters
+    ----------
+    labels
+        Label files: CSV with the columns file, from, to, task, person, cycle; no seconds for the whole file.
+    output
+        The model's file.
+    across
+        Known may be as far away as a known task by a new person, or a known person in a new task; without it as
+        another repetition by the same.
+    mirrored
+        ``apart`` (the default): a step and its mirror image are two. ``joined``: they are one; the model then turns
+        all that it is shown to lead with the right side. Names stay as they are: label both sides alike.
+    span
+        Cut the stretches at their keyposes: so many keyposes a segment. Their tasks are named TASK/1, TASK/2, … by
+        the beat on which they begin.
+    cycle
+        Beats after which the dance repeats: the same beat of each cycle has one name.
+    flags
+        Where the beats of motion files come from that are cut.
+    seed
+        Of the choice among many segments.
+    """
+    if seed < 0:
+        raise OnbeatError(f"--seed {seed}: give 0 or more")
+    with warnings_as_lines():
+        _, segments = read_segments(labels, flags, Cut(span, cycle=cycle, usual=True))
+    with Console(stderr=True).status(Text(f"learning from {len(segments)} segments")):
+        kind = JoinedSides if mirrored == "joined" else Recogniser
+        recogniser = kind.train(segments, np.random.default_rng(seed), across=across)
+    save_recogniser(recogniser, output)
+    counts = [len(expert.names) if expert else 0 for expert in (recogniser.task, recogniser.person)]
+    told = [f"{n} {name}{'' if n == 1 else 's'}" for n, name in zip(counts, ("task", "person"), strict=True)]
+    of = f"{len(segments)} segment{'' if len(segments) == 1 else 's'}"
+    sides = ", left and right joined" if mirrored == "joined" else ""
+    screen().print(Text(f"{output}: {told[0]} and {told[1]} from {of}{sides}"))

@@ -1,0 +1,1 @@
+"""What the joints of a body can do: tables of robots, files, limits learned from motions."""

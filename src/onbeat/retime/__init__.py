@@ -1,0 +1,1 @@
+"""Faster or slower music, the same dance, inside a body's limits."""
