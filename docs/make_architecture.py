@@ -11,8 +11,8 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "ARCHITECTURE.md"
 SOURCE = ROOT / "src" / "onbeat"
 ROOMS = (
-    "motion", "music", "capture", "limits", "formats", "keyposes", "retime", "metrics", "examples", "moves", "recognition",
-    "dance", "viewer", "cli",
+    "motion", "music", "capture", "limits", "formats", "keyposes", "retime", "metrics", "examples", "moves",
+    "recognition", "robots", "dance", "viewer", "cli",
 )  # fmt: skip
 """In the order of the floors."""
 BEGIN, END = "<!-- modules: written by docs/make_architecture.py -->\n", "<!-- end of modules -->\n"

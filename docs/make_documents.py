@@ -16,6 +16,7 @@ from onbeat.keyposes.threshold_file import LearnedDocument
 from onbeat.music.song import SongDocument
 from onbeat.retime.document import RetimeDocument
 from onbeat.retime.observe_document import ObserveDocument
+from onbeat.robots.document import RobotDocument
 
 PAGE = Path(__file__).parent / "documents.md"
 
@@ -48,6 +49,7 @@ DOCUMENTS = (
     Document("lowdim.json", LowdimDocument, "Written by `onbeat lowdim MOTIONS… -o FOLDER`."),
     Document("observe.json", ObserveDocument, "Written by `onbeat observe MOTIONS… -o FOLDER`."),
     Document("retime.json", RetimeDocument, "Written by `onbeat retime MOTION … -o FOLDER` beside the motion."),
+    Document("robot.json", RobotDocument, "Written by `onbeat robot MOTION … -o FOLDER` beside the dance."),
     Document("answers.json", AnswersDocument, "Saved by `judge.html`, read by `onbeat lowdim --judged`."),
     Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),
 )

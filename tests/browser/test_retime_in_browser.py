@@ -54,6 +54,7 @@ def test_keyposes_are_stepped_to_and_the_original_goes_round_its_places(made: tu
     words = []
     for _ in range(3):
         words.append(opened.page.text_content("#master"))
+        assert opened.state()["size"] == 1.0
         opened.page.keyboard.press("m")
         opened.posed(1.0)
     assert words == ["Original: beside", "Original: over", "Original: hidden"]

@@ -12,12 +12,14 @@ def test_all_robots_in_a_table(onbeat):
     status, out, err = onbeat("robots")
     assert (status, err) == (0, "")
     lines = out.splitlines()
-    assert lines[0].split() == ["name", "robot", "joints", "slowest", "rad/s", "fastest", "rad/s", "source"]
+    assert lines[0].split() == ["name", "robot", "joints", "slowest", "rad/s", "fastest", "rad/s", "model", "source"]
     starts = [line.split()[0] for line in lines if not line.startswith(" ")]
     assert starts[1:] == list(robot_names())
     talos = next(line for line in lines if line.startswith("talos"))
     assert "32  1 head_1_joint" in talos
     assert "7 leg_left_4_joint" in talos
+    assert "93.3 kg, to 300 N·m" in talos
+    assert "–" in next(line for line in lines if line.startswith("h1"))
 
 
 def test_all_robots_as_json(onbeat):
@@ -29,6 +31,13 @@ def test_all_robots_as_json(onbeat):
     assert (g1["name"], g1["robot"], g1["joints"]) == ("g1", "Unitree G1", 29)
     assert g1["fastest"] == {"joint": "left_shoulder_pitch_joint", "speed": 37.0}
     assert "urdf" in g1["source"]
+    assert {row["name"]: row["model"] and row["model"]["mass"] for row in document["robots"]} == {
+        "g1": 33.34114202,
+        "h1": None,
+        "hrp4c": 43.149948443,
+        "nao": None,
+        "talos": 93.335724,
+    }
 
 
 def test_the_joints_of_one(onbeat):

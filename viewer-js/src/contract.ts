@@ -1,6 +1,6 @@
 // Written by `python -m onbeat.viewer.typescript` from contract.py. Do not edit.
 
-export const VERSION = 3;
+export const VERSION = 4;
 
 /** A tapering capsule between two joints of the page; see :mod:`onbeat.viewer.shape`. */
 export interface CapsuleData {
@@ -84,10 +84,11 @@ export interface HeatData {
 /** The dancer held against another: how far off its joints are, and the other one's body in the same place. */
 export interface ComparedData {
   name: string;
-  heat: HeatData;
+  heat: HeatData | null;
   body: BodyData;
   who: string;
   captions: string[];
+  apart: number;
 }
 
 /** Everything the page shows. */

@@ -30,11 +30,10 @@ export class Dancer {
   private readonly trunk?: Trunk;
   private readonly spine: THREE.Vector3[];
 
-  /** With `heat` the body is coloured by it; else all in one `skin`, or in the colours of its clothes. */
+  /** With `heat` the body is coloured by it, else in the colours of its clothes. */
   constructor(
     private readonly page: Body,
     private readonly heat?: Heat,
-    private readonly skin?: THREE.Material,
   ) {
     this.path = readPath(page.path);
     this.joints = new Float32Array(page.joints.length * 3);
@@ -96,7 +95,6 @@ export class Dancer {
   }
 
   private material(colour = "#ee5c42"): THREE.Material {
-    if (this.skin) return this.skin;
     if (this.heat) return new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.7 });
     return new THREE.MeshStandardMaterial({ color: colour, roughness: 0.7 });
   }

@@ -72,6 +72,7 @@ function expose(
     joints: Array.from(stage.dancer.joints),
     heat: Array.from(stage.heat?.levels ?? []),
     master: stage.master?.place ?? null,
+    size: stage.master?.dancer.group.scale.x ?? 1,
     other: Array.from(stage.master?.dancer.joints ?? []),
   });
   Object.assign(window, { onbeat: { state, seek, play: () => clock.play(), pause: () => clock.pause() } });

@@ -9,19 +9,28 @@ const APART = 0.85; // of the dancer's height
 const GHOST = 0.42; // opacity
 
 export type Place = (typeof PLACES)[number];
+type Part = THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
 
 export class Master {
   place: Place = "beside";
   readonly dancer: Dancer;
   readonly shift = new THREE.Vector3(); // [m] from the dancer
   private readonly aside: THREE.Vector3;
-  private readonly body: THREE.MeshStandardMaterial;
+  private readonly parts: Part[] = [];
+  private readonly size: number; // of a ghost
+  private readonly began: THREE.Vector3; // [m] about which it has that size
 
   constructor(compared: ComparedData, page: PageData, height: number) {
-    this.body = new THREE.MeshStandardMaterial({ color: compared.body.capsules[0]?.colour, roughness: 0.7 });
-    this.dancer = new Dancer({ ...page, ...compared.body }, undefined, this.body);
+    this.dancer = new Dancer({ ...page, ...compared.body });
     // To the left of who looks at the dancer's front.
-    this.aside = new THREE.Vector3(Math.cos(page.facing), Math.sin(page.facing), 0).multiplyScalar(APART * height);
+    const apart = compared.apart || APART * height;
+    this.aside = new THREE.Vector3(Math.cos(page.facing), Math.sin(page.facing), 0).multiplyScalar(apart);
+    this.dancer.group.traverse((part) => {
+      if (part instanceof THREE.Mesh && part.visible) this.parts.push(part as Part);
+    });
+    // What is compared joint by joint has its own size; another body shows its pose best as large as the dancer.
+    this.size = compared.heat ? 1 : height / this.dancer.height;
+    this.began = this.dancer.centre.clone().setZ(page.floor);
     this.addDepth();
     this.put("beside");
   }
@@ -45,29 +54,24 @@ export class Master {
     this.place = place;
     const over = place === "over";
     this.shift.copy(this.aside).multiplyScalar(place === "beside" ? 1 : 0);
-    this.dancer.group.position.copy(this.shift);
+    const size = over ? this.size : 1;
+    this.dancer.group.scale.setScalar(size);
+    this.dancer.group.position.copy(this.began).multiplyScalar(1 - size).add(this.shift);
     this.dancer.group.visible = place !== "hidden";
-    this.body.transparent = over;
-    this.body.opacity = over ? GHOST : 1;
-    this.body.needsUpdate = true;
-    this.dancer.group.traverse((part) => {
-      if (part instanceof THREE.Mesh && part.material === this.body) part.castShadow = !over;
-      if (part.userData.depth) part.visible = over;
-    });
+    for (const part of this.parts) {
+      Object.assign(part.material, { transparent: over, opacity: over ? GHOST : 1, needsUpdate: true });
+      part.castShadow = !over;
+      for (const depth of part.children) depth.visible = over;
+    }
   }
 
   /** A ghost's parts must not be seen through each other: all of them go to the depth buffer before they are drawn. */
   private addDepth(): void {
     const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true });
-    const parts: THREE.Mesh[] = [];
-    this.dancer.group.traverse((part) => {
-      if (part instanceof THREE.Mesh && part.visible) parts.push(part);
-    });
-    for (const part of parts) {
+    for (const part of this.parts) {
       const first = new THREE.Mesh(part.geometry, depth);
       first.renderOrder = 2; // after the ground
       first.frustumCulled = part.frustumCulled;
-      first.userData.depth = true;
       part.renderOrder = 3;
       part.add(first);
     }

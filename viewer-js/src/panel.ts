@@ -180,14 +180,14 @@ export class Panel {
   }
 }
 
-/** Where two are compared joins are of segments, keyposes are of the other, and the last curve is no intensity. */
+/** Where two are compared joins are of segments, keyposes are of the other, and a curve of heat is no intensity. */
 function legend(page: PageData): typeof LEGEND {
   if (!page.compared) return LEGEND;
   const others: Record<string, [short: string, words: string]> = {
     join: ["segment", "where a segment begins"],
     keypose: ["keypose", `keypose of the ${page.compared.who}; grey where it cannot be kept`],
-    dance: ["distance", `mean distance from the ${page.compared.who}`],
   };
+  if (page.compared.heat) others.dance = ["distance", `mean distance from the ${page.compared.who}`];
   return LEGEND.map(([sign, colour, short, words]) => [sign, colour, ...(others[short] ?? [short, words])]);
 }
 

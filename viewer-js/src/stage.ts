@@ -34,7 +34,7 @@ export class Stage {
     this.renderer = rendererOn(canvas);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    if (page.compared) this.heat = new Heat(page.compared.heat, page.joints.length, page.fps);
+    if (page.compared?.heat) this.heat = new Heat(page.compared.heat, page.joints.length, page.fps);
     this.dancer = new Dancer(page, this.heat);
     if (page.compared) {
       this.master = new Master(page.compared, page, this.dancer.height);
@@ -94,8 +94,9 @@ export class Stage {
 
   /** What the camera looks at: the dancer, or half-way to who stands beside. */
   private middle(): THREE.Vector3 {
-    const half = this.master?.shift.clone().multiplyScalar(0.5) ?? new THREE.Vector3();
-    return half.add(this.dancer.centre);
+    const here = this.dancer.centre.clone();
+    if (this.master?.place !== "beside") return here;
+    return here.lerp(this.master.dancer.centre.clone().add(this.master.shift), 0.5);
   }
 
   private goAfter(centre: THREE.Vector3, part: number): void {
@@ -132,11 +133,12 @@ export class Stage {
   }
 
   private placeCamera(): void {
-    const height = this.dancer.height;
+    const height = Math.max(this.dancer.height, this.master?.dancer.height ?? 0);
     const yaw = this.page.facing + 0.42;
     const middle = this.middle();
     this.target.set(middle.x, middle.y, this.page.floor + 0.5 * height);
-    const narrow = Math.min(this.camera.aspect / (this.master ? 1.4 : 0.74), 1);
+    const wide = this.master ? 0.55 + this.master.shift.length() / height : 0.74; // of the height
+    const narrow = Math.min(this.camera.aspect / wide, 1);
     const away = (0.78 * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
     const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
     this.camera.position.copy(this.target).addScaledVector(out, away);

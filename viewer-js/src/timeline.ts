@@ -138,7 +138,7 @@ export class Timeline {
     const clips = this.clipsHeight();
     const bottom = height - clips - 4;
     const compared = this.page.compared !== null;
-    const top = compared ? 4 : this.waveMiddle(height) + this.waveHalf(height) + 3;
+    const top = this.page.compared?.heat ? 4 : this.waveMiddle(height) + this.waveHalf(height) + 3;
     if (compared) lanes.drawJoins(pen, span, this.page, 0, bottom);
     if (this.energy && !this.wave.values.length) {
       lanes.drawEnergy(pen, span, this.energy, this.laneHeight() + 3, top - 6, false);

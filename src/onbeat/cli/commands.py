@@ -64,6 +64,11 @@ COMMANDS = {
         "Say what is in a motion file: body, rate, unit, roles, contacts, and what is wrong with it.",
         "onbeat info dance.bvh",
     ),
+    "robot": (
+        "onbeat.cli.robot:robot_command",
+        "Put a dance on a humanoid robot: retargeted, on the music, inside its limits, balanced; simulated and exported.",
+        "onbeat robot dance.bvh --robot g1 --speed 1.2 --simulate -o out",
+    ),
     "robots": (
         "onbeat.cli.robots:robots_command",
         "List the robots that are known by name, or what the joints of one can do: how far, how fast.",

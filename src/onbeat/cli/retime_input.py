@@ -59,7 +59,7 @@ def read_source(path: Path, fps: float | None, joints: list[str] | None) -> Sour
 
 def read_dance_of(source: Source, flags: BeatFlags, keyposes: Path | None) -> Dance:
     """The dance with its beats, told or its own, and its keyposes, told or found."""
-    told = None if keyposes is None else _told_keyposes(keyposes)
+    told = None if keyposes is None else told_keyposes(keyposes)
     if isinstance(source, Table):
         beats = _listed(flags) if flags.beats or flags.music else np.arange(0.0, source.curve.knots.end, STEADY)
         return Dance(source, beats, np.zeros(0) if told is None else told)
@@ -74,7 +74,8 @@ def _listed(flags: BeatFlags) -> Times:
     return listed + flags.song_at
 
 
-def _told_keyposes(path: Path) -> Times:
+def told_keyposes(path: Path) -> Times:
+    """The keyposes of a keyposes.json, in seconds."""
     try:
         data = path.read_bytes()
     except OSError as error:

@@ -18,6 +18,7 @@ from onbeat.cli.progress import warnings_as_lines
 from onbeat.limits.limits import Limits
 from onbeat.limits.named import robot_limits, robot_names
 from onbeat.limits.read import read_limits
+from onbeat.robots.description_toml import described, described_robots
 
 VERSION = 1
 _WIDE = 160
@@ -64,11 +65,12 @@ def _print_robots(robots: Mapping[str, Limits], json: bool) -> None:
         _print_json({"version": VERSION, "robots": rows})
         return
     table = Table(box=None, pad_edge=False)
-    for head in ("name", "robot", "joints", "slowest rad/s", "fastest rad/s", "source"):
+    for head in ("name", "robot", "joints", "slowest rad/s", "fastest rad/s", "model", "source"):
         table.add_column(head, justify="right" if head == "joints" else "left", overflow="fold")
     for row in rows:
         ends = (f"{row[end]['speed']:.4g} {row[end]['joint']}" for end in ("slowest", "fastest"))
-        table.add_row(*map(Text, (row["name"], row["robot"], str(row["joints"]), *ends, row["source"])))
+        model = f"{row['model']['mass']:.1f} kg, to {row['model']['torque']:g} N·m" if row["model"] else "–"
+        table.add_row(*map(Text, (row["name"], row["robot"], str(row["joints"]), *ends, model, row["source"])))
     _screen().print(table)
 
 
@@ -76,7 +78,16 @@ def _robot(name: str, limits: Limits) -> dict[str, Any]:
     """A robot in a line."""
     ends = {"slowest": int(limits.speed.argmin()), "fastest": int(limits.speed.argmax())}
     told = {end: {"joint": limits.joints[n], "speed": _number(limits.speed[n])} for end, n in ends.items()}
-    return {"name": name, "robot": limits.name, "joints": len(limits), **told, "source": limits.source}
+    model = _model(name)
+    return {"name": name, "robot": limits.name, "joints": len(limits), **told, "model": model, "source": limits.source}
+
+
+def _model(name: str) -> dict[str, float] | None:
+    """Mass in kg and the largest torque in N·m of a robot of which there is a whole model, which can be simulated."""
+    if name not in described_robots():
+        return None
+    links = described(name).links.values()
+    return {"mass": _number(described(name).mass) or 0.0, "torque": max(link.torque for link in links)}
 
 
 def _print_joints(name: str, limits: Limits, json: bool) -> None:

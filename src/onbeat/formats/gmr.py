@@ -7,12 +7,14 @@ dictionary holds is handled here; pickles are never executed.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from onbeat.files import write_atomically
 from onbeat.formats.tracking import numbers, stored_rate
 from onbeat.motion import Motion
 from onbeat.motion.unitree_g1 import g1_angles, g1_motion
@@ -58,3 +60,16 @@ def gmr_arrays(motion: Motion) -> dict[str, Any]:
         "root_rot": motion.rotations[:, 0, [1, 2, 3, 0]],
         "dof_pos": g1_angles(motion, "a GMR dictionary"),
     }
+
+
+def write_gmr(motion: Motion, path: str | Path) -> None:
+    """Write the GMR dictionary of a motion of the Unitree G1 as ``.npz``: the same keys, and nothing to unpickle.
+
+    Raises
+    ------
+    FormatError
+        If the motion is of another body, or the file cannot be written.
+    """
+    buffer = io.BytesIO()
+    np.savez(buffer, **gmr_arrays(motion))
+    write_atomically(path, buffer.getvalue())

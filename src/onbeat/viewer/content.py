@@ -29,7 +29,7 @@ from onbeat.viewer.contract import (
     pack_curve,
     pack_path,
 )
-from onbeat.viewer.figure import DRESSED, Figure, ground_height
+from onbeat.viewer.figure import DRESSED, Colour, Figure, ground_height
 from onbeat.viewer.shape import Capsule, capsules
 
 MAX_FPS = 60.0
@@ -106,13 +106,24 @@ def thinning(motion: Motion) -> int:
     return int(np.ceil(motion.fps / MAX_FPS - 1e-9))
 
 
-def body_data(motion: Motion, every: int, group_colour: str) -> BodyData:
-    """A second body on the stage, all in one colour, every so many frames of it."""
-    body = _body(motion)
-    shape = capsules(motion.skeleton, body)
+def body_data(
+    motion: Motion,
+    every: int,
+    colour: str | None = None,
+    shape: list[Capsule] | None = None,
+    palette: Mapping[str, Colour] = DRESSED,
+) -> BodyData:
+    """A body on the stage, every so many frames of it.
+
+    It is all in one colour, or in those of its groups; ``shape`` is what hangs on the joints where it is not a body.
+    """
+    body = _body(motion) if shape is None else None
+    shape = capsules(motion.skeleton, body) if shape is None else shape
     spine = _spine(body)
     joints = sorted({*spine, *(c.joint_a for c in shape), *(c.joint_b for c in shape)})
-    drawn = [msgspec.structs.replace(_capsule(c, joints), colour=group_colour) for c in shape]
+    drawn = [_capsule(c, joints, palette) for c in shape]
+    if colour is not None:
+        drawn = [msgspec.structs.replace(capsule, colour=colour) for capsule in drawn]
     names = [motion.skeleton.names[joint] for joint in joints]
     return BodyData(names, drawn, pack_path(motion.positions[::every, joints]), [joints.index(j) for j in spine])
 
@@ -149,9 +160,9 @@ def _spine(body: Body | None) -> list[int]:
     return list(dict.fromkeys(body[role] for role in ("hips", "chest", "neck") if role in body))
 
 
-def _capsule(c: Capsule, joints: Sequence[int]) -> CapsuleData:
+def _capsule(c: Capsule, joints: Sequence[int], palette: Mapping[str, Colour] = DRESSED) -> CapsuleData:
     """A capsule between joints of the page."""
-    colour = "#" + bytes(DRESSED[c.group]).hex()
+    colour = "#" + bytes(palette[c.group]).hex()
     ends = joints.index(c.joint_a), joints.index(c.joint_b)
     return CapsuleData(
         *ends, round(c.radius_a, 4), round(c.radius_b, 4), c.group, colour, round(c.start, 4), round(c.end, 4)

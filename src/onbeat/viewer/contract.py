@@ -14,7 +14,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Positions
 
-VERSION = 3
+VERSION = 4
 STEPS = 65535
 """Largest quantised coordinate."""
 
@@ -114,14 +114,17 @@ class HeatData(msgspec.Struct, frozen=True):
 class ComparedData(msgspec.Struct, frozen=True):
     """The dancer held against another: how far off its joints are, and the other one's body in the same place.
 
-    ``who`` is what the other is called on buttons; ``captions`` stand under both, none for an empty list.
+    ``heat`` is none of bodies that have other joints. ``who`` is what the other is called on buttons; ``captions``
+    stand under both, none for an empty list. Beside each other they begin ``apart`` metres, by the dancer's height
+    where it is 0.
     """
 
     name: str
-    heat: HeatData
+    heat: HeatData | None
     body: BodyData
     who: str = "master"
     captions: list[str] = []
+    apart: float = 0.0
 
 
 class PageData(msgspec.Struct, frozen=True):

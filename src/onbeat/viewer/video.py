@@ -38,6 +38,7 @@ def write_video(
     fps: float = 30,
     size: Size = (1280, 720),
     stops: Times | None = None,
+    figure: Figure | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> None:
     """Write a dance as an mp4 that plays everywhere (yuv420p, index first), exactly as long as the dance.
@@ -53,6 +54,7 @@ def write_video(
     fps : frames a second.
     size : width and height in pixels; even numbers.
     stops : seconds at which the dancer stops, marked in the strip.
+    figure : what the body looks like; as its joints' roles tell without it.
     progress : called with the part that is done, 0…1.
 
     Raises
@@ -66,7 +68,9 @@ def write_video(
     if size[0] % 2 or size[1] % 2 or min(size) < 16:
         raise OnbeatError(f"a video of {size[0]} x {size[1]} pixels cannot be coded; give even numbers from 16 on")
     with _whole_file(Path(path)) as temporary:
-        _encode(av, temporary, motion, song, audio, fps, size, np.zeros(0) if stops is None else stops, progress)
+        looks = Figure.of(motion.skeleton) if figure is None else figure
+        marked = np.zeros(0) if stops is None else stops
+        _encode(av, temporary, motion, looks, song, audio, fps, size, marked, progress)
 
 
 def require_av() -> Any:
@@ -101,6 +105,7 @@ def _encode(
     av: Any,
     path: Path,
     motion: Motion,
+    figure: Figure,
     song: Song | None,
     audio: tuple[Float32, int] | None,
     fps: float,
@@ -114,7 +119,7 @@ def _encode(
         sound = None if audio is None else SoundTrack(av, container, audio[0], audio[1], count / fps)
         level = None if audio is None else loudness(audio[0], size[0], count / fps, audio[1])
         strip = Strip.of(song, level, stops, count / fps, max(4, int(size[1] * STRIP)), size[0])
-        for number, picture in enumerate(pictures(motion, fps, size, strip)):
+        for number, picture in enumerate(pictures(motion, figure, fps, size, strip)):
             frame = av.VideoFrame.from_ndarray(yuv420(picture), format="yuv420p")
             frame.pts = number
             container.mux(video.encode(frame))
@@ -142,9 +147,8 @@ def _video_stream(container: Any, fps: float, size: Size) -> Any:
     return stream
 
 
-def pictures(motion: Motion, fps: float, size: Size, strip: Strip) -> Iterator[np.ndarray]:
+def pictures(motion: Motion, figure: Figure, fps: float, size: Size, strip: Strip) -> Iterator[np.ndarray]:
     """The film's pictures (H, W, 3), one by one."""
-    figure = Figure.of(motion.skeleton)
     ground = ground_height(figure, motion)
     count = max(1, round(motion.duration * fps))
     poses = motion.at(np.arange(count) / fps).replace(fps=fps)

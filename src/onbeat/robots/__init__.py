@@ -1,0 +1,1 @@
+"""Humanoid robots that dance: their models, retargeting, legs, balance, simulation and export."""

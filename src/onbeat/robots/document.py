@@ -1,0 +1,137 @@
+"""``robot.json``: how a robot dances a dance, as others read it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+import numpy as np
+
+from onbeat._shapes import Array, Times
+from onbeat.motion.hinges import hinge_angles
+from onbeat.robots.model import Robot
+from onbeat.robots.perform import Staged
+from onbeat.robots.trial import Trial
+
+VERSION = 1
+MET = 0.05
+"""Seconds within which a pose of a beat has to be danced for the beat to be met."""
+Said = msgspec.Meta
+
+
+class OverDocument(msgspec.Struct, frozen=True):
+    """How many joints are ever past a limit, looked at a thousand times a second."""
+
+    position: Annotated[int, Said(description="joints")]
+    velocity: Annotated[int, Said(description="joints")]
+
+
+class ZmpDocument(msgspec.Struct, frozen=True):
+    """The zero-moment point of the dance as it is planned."""
+
+    inside: Annotated[float, Said(description="share of the frames in which it is inside the soles' hull, 0…1")]
+    worst_mm: Annotated[float, Said(description="mm by which it is inside at the least; below 0 outside")]
+    margin_mm: Annotated[list[float], Said(description="mm, of each frame")]
+
+
+class TrialDocument(msgspec.Struct, frozen=True):
+    """The dance as it was simulated."""
+
+    fell_at: Annotated[float | None, Said(description="second of the dance at which the robot fell; null if never")]
+    why: Annotated[str | None, Said(description="how it fell")]
+    rms_deg: Annotated[float, Said(description="degrees between the joints and what they were told")]
+    worst_deg: Annotated[float, Said(description="degrees, the most")]
+    saturated: Annotated[float, Said(description="share of the time in which the busiest motor gave all it has")]
+    beats: Annotated[int, Said(description="of the dance within the simulated time")]
+    beats_met: Annotated[int, Said(description="at which its pose was danced within 50 ms")]
+
+
+class RobotDocument(msgspec.Struct, frozen=True):
+    """``robot.json``; times in seconds of the music where nothing else is said."""
+
+    version: Annotated[int, Said(description="of this document; others are refused")]
+    robot: Annotated[str, Said(description="its name")]
+    mass_kg: Annotated[float, Said(description="kilograms")]
+    feet: Annotated[str, Said(description="`planted` or `stepping`")]
+    speed: Annotated[float, Said(description="how much faster than the dance itself, on the whole")]
+    start: Annotated[float, Said(description="second of the music at frame 0")]
+    fps: Annotated[float, Said(description="frames a second")]
+    duration: Annotated[float, Said(description="seconds")]
+    joints: Annotated[list[str], Said(description="in the model's order")]
+    violations: Annotated[OverDocument, Said(description="how many joints are past a limit")]
+    zmp: Annotated[ZmpDocument, Said(description="of the plan")]
+    standing: Annotated[list[str], Said(description="of each frame the feet that stand: `LR`, `L` or `R`")]
+    beats: Annotated[list[float], Said(description="at which the dance's beats are now")]
+    keyposes: Annotated[list[float], Said(description="at which its keyposes are now")]
+    source: Annotated[str, Said(description="where the robot's figures are from")]
+    trial: Annotated[TrialDocument | None, Said(description="the simulation, where there was one")] = None
+
+    def to_json(self) -> bytes:
+        """The document as JSON bytes."""
+        return msgspec.json.format(msgspec.json.encode(self), indent=1) + b"\n"
+
+
+def robot_document(robot: Robot, staged: Staged, trial: Trial | None, feet: str) -> RobotDocument:
+    """The document of a staged dance, and of its trial."""
+    motion, margin, measures = staged.motion, staged.balanced.margin, staged.limits
+    ends = staged.start + np.array([0.0, (len(motion) - 1) / motion.fps])
+    speed = float(np.diff(staged.retimed.warp(ends))[0] / max(ends[1] - ends[0], 1e-9))
+    over = measures.violations
+    return RobotDocument(
+        version=VERSION,
+        robot=robot.name,
+        mass_kg=round(robot.mass, 3),
+        feet=feet,
+        speed=round(speed, 6),
+        start=round(staged.start, 6),
+        fps=round(motion.fps, 6),
+        duration=round(motion.duration, 6),
+        joints=list(robot.body.names),
+        violations=OverDocument(*over),
+        zmp=ZmpDocument(
+            round(float((margin >= 0).mean()), 6),
+            round(1000 * float(margin.min()), 3),
+            [round(1000 * value, 2) for value in margin.tolist()],
+        ),
+        standing=["".join(name for name, on in zip("LR", row, strict=True) if on) for row in staged.standing.tolist()],
+        beats=[round(beat, 6) for beat in staged.beats.tolist()],
+        keyposes=[round(time, 6) for time in staged.retimed.measures.keyposes.tolist()],
+        source=robot.source,
+        trial=None if trial is None else _tried(robot, staged, trial),
+    )
+
+
+def _tried(robot: Robot, staged: Staged, trial: Trial) -> TrialDocument:
+    inside = staged.beats - staged.start
+    end = trial.motion.duration if trial.fell_at is None else trial.fell_at
+    inside = inside[(inside >= 0) & (inside < end)]
+    return TrialDocument(
+        fell_at=None if trial.fell_at is None else round(trial.fell_at, 3),
+        why=trial.why,
+        rms_deg=round(float(np.degrees(np.sqrt(np.square(trial.error).mean()))), 3),
+        worst_deg=round(float(np.degrees(np.abs(trial.error).max(initial=0.0))), 3),
+        saturated=round(float(trial.saturated.max(initial=0.0)), 4),
+        beats=len(inside),
+        beats_met=int(np.sum(np.abs(lateness(robot, staged, trial, inside)) <= MET)),
+    )
+
+
+def lateness(robot: Robot, staged: Staged, trial: Trial, beats: Times) -> Array:
+    """(B,) seconds by which the robot's pose at beats of the dance is later than planned.
+
+    It is the shift, up to a quarter of a second, at which the joints about the beat are nearest to the plan.
+    """
+    plan, done = (hinge_angles(robot.body, motion) for motion in (staged.motion, trial.motion))
+    fps, count = staged.motion.fps, min(len(plan), len(done))
+    reach, wide = max(round(0.25 * fps), 1), max(round(0.15 * fps), 1)
+    out = np.full(len(beats), np.inf)
+    for k, beat in enumerate(np.round(beats * fps).astype(np.int64).tolist()):
+        around = np.arange(max(beat - wide, 0), min(beat + wide + 1, count))
+        if not len(around):
+            continue
+        costs = [
+            float(np.square(done[np.clip(around + shift, 0, count - 1)] - plan[around]).mean())
+            for shift in range(-reach, reach + 1)
+        ]
+        out[k] = (int(np.argmin(costs)) - reach) / fps
+    return out

@@ -1,0 +1,170 @@
+"""Robots: what a dance, a planner and a simulator need of one, by its name or from a file."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import msgspec
+
+from onbeat._shapes import Array, Positions, frozen
+from onbeat.errors import BodyError, FormatError
+from onbeat.motion.hinges import End, Hinge, HingeBody
+from onbeat.motion.role_file import SUFFIX, read_roles
+from onbeat.motion.roles import find_roles
+from onbeat.motion.unitree_g1 import G1
+from onbeat.robots.description import Description
+from onbeat.robots.description_toml import described, described_robots, read_description
+from onbeat.robots.engine import engine
+from onbeat.robots.mjcf import FRICTION, mjcf_of
+from onbeat.robots.mjcf_file import read_mjcf
+from onbeat.robots.urdf import read_urdf
+
+
+@dataclass(frozen=True, eq=False)
+class Foot:
+    """A foot: the link (body of the model) that it is, and the corners (4, 3) of its sole in metres in that frame."""
+
+    link: str
+    corners: Positions
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A humanoid with n hinges on a floor.
+
+    Parameters
+    ----------
+    name : short, as on the command line.
+    body : its hinges in the order of the model, their limits, and the skeleton that rests in the zero configuration.
+    torque : (n,) N·m, what each motor can do in either direction.
+    mjcf : the whole model as MuJoCo reads it: floor, capsules, soles, one motor for each hinge in order. It stands on
+        the floor in the zero configuration.
+    feet : "left" and "right".
+    roles : the hinge, the root or the end that plays each role.
+    source : where the figures are from.
+
+    Examples
+    --------
+    >>> g1 = robot_named("G1")
+    >>> len(g1.body.names), round(g1.mass, 2), g1.feet["left"].link
+    (29, 33.34, 'left_ankle_roll_link')
+    """
+
+    name: str
+    body: HingeBody
+    torque: Array
+    mjcf: str
+    feet: Mapping[str, Foot]
+    roles: Mapping[str, str]
+    source: str
+
+    @cached_property
+    def model(self) -> Any:
+        """MuJoCo's compiled model (``mujoco.MjModel``), compiled once: copy it before you change it."""
+        return engine().MjModel.from_xml_string(self.mjcf)
+
+    @property
+    def mass(self) -> float:
+        """Kilograms of the whole robot."""
+        return float(self.model.body_mass.sum())
+
+
+def robot_named(name: str, friction: float = FRICTION) -> Robot:
+    """A robot by its name.
+
+    Parameters
+    ----------
+    name : "g1", "hrp4c" or "talos", however it is spelt.
+    friction : of its soles on the floor.
+
+    Raises
+    ------
+    BodyError
+        If there is no such robot; those that there are are named.
+    """
+    plain = name.strip().lower().replace("-", "").replace("_", "")
+    if plain not in described_robots():
+        raise BodyError(
+            f"no robot {name[:40]!r} is known; there are {', '.join(described_robots())}; "
+            "of others give a file: .urdf or .xml"
+        )
+    return _packaged(plain, float(friction))
+
+
+@lru_cache(maxsize=16)
+def _packaged(name: str, friction: float) -> Robot:
+    robot = robot_of(name, described(name), friction)
+    return replace(robot, body=G1) if name == "g1" else robot
+
+
+def robot_from(path: str | os.PathLike[str], friction: float = FRICTION) -> Robot:
+    """The humanoid of a file: a URDF (``.urdf``), an MJCF (``.xml``), or a description as onbeat has it (``.toml``).
+
+    What is assumed of it (soles, speeds, torques that are not told, meshes that are not there) is a warning. Where
+    names do not tell which joint plays which role, ``NAME.roles.toml`` beside it does.
+
+    Raises
+    ------
+    BodyError
+        If it cannot be a robot's that stands on two feet; the joint or the link is named. If its roles file is wrong.
+    LimitError
+        If the file cannot be read, is no XML, or a number is none.
+    """
+    path = Path(path)
+    readers = {".urdf": read_urdf, ".xml": read_mjcf, ".mjcf": read_mjcf, ".toml": read_description}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise BodyError(f"{path} is no robot's description; .urdf, .xml (MJCF) or .toml is expected")
+    description, beside = reader(path), path.with_suffix(SUFFIX)
+    try:
+        if beside.is_file():
+            told = {**description.roles, **read_roles(beside).joints}
+            description = msgspec.structs.replace(description, roles=told)
+        return robot_of(path.stem, description, friction)
+    except FormatError as error:
+        raise BodyError(f"{path}: {error}") from None
+
+
+def robot_of(name: str, description: Description, friction: float = FRICTION) -> Robot:
+    """The robot that a sound description tells of.
+
+    Raises
+    ------
+    BodyError
+        If the friction is not above zero.
+    """
+    if not (math.isfinite(friction) and friction > 0):
+        raise BodyError(f"soles with a friction of {friction:g} stand nowhere; a number above zero is expected")
+    body = _body(description)
+    names = body.skeleton.names
+    roles = {role: names[joint] for role, joint in find_roles(body.skeleton).joints.items()}
+    feet = {side: Foot(sole.link, frozen(sole.corners)) for side, sole in description.feet.items()}
+    source = "; ".join(text for text in (description.source, description.licence, description.note) if text)
+    return Robot(
+        name,
+        body,
+        frozen([link.torque for link in description.links.values()]),
+        mjcf_of(description, friction),
+        MappingProxyType(feet),
+        MappingProxyType(roles),
+        source,
+    )
+
+
+def _body(description: Description) -> HingeBody:
+    root, links = description.root.link, description.links
+    joint = {root: root, **{name: link.joint for name, link in links.items()}}
+    hinges = [
+        Hinge(link.joint, joint[link.parent], link.origin, link.rpy, link.axis, *link.position, link.speed)
+        for link in links.values()
+    ]
+    ends = [End(name, joint[end.link], end.at) for name, end in description.ends.items()]
+    body = HingeBody.of(description.name, root, hinges, ends)
+    return replace(body, skeleton=body.skeleton.with_roles(description.roles))
