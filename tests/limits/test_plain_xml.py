@@ -3,8 +3,8 @@ from pathlib import Path
 import pytest
 
 from onbeat.errors import LimitError
-from onbeat.limits.plain_xml import as_number, parse_xml, read_xml
 from onbeat.limits import plain_xml
+from onbeat.limits.plain_xml import as_number, parse_xml, read_xml
 
 
 def parse(text: str | bytes):

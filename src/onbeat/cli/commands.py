@@ -66,7 +66,7 @@ COMMANDS = {
     ),
     "robot": (
         "onbeat.cli.robot:robot_command",
-        "Put a dance on a humanoid robot: retargeted, on the music, inside its limits, balanced; simulated and exported.",
+        "Put a dance on a humanoid robot: retargeted, on the music, inside limits, balanced; simulated and exported.",
         "onbeat robot dance.bvh --robot g1 --speed 1.2 --simulate -o out",
     ),
     "robots": (
