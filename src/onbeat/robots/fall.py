@@ -29,9 +29,11 @@ class Ground:
     def __init__(self, robot: Robot) -> None:
         model = robot.model
         feet = [model.body(foot.link).id for foot in robot.feet.values()]
+        # Toes with a hinge of their own are links below the foot.
+        below = [np.flatnonzero((np.arange(model.nbody) == f) | (model.body_parentid == f)) for f in feet]
         self.floor: Bools = np.asarray(model.geom_bodyid == 0)
-        self.soles: Bools = np.isin(model.geom_bodyid, feet)
-        self.side = np.select([model.geom_bodyid == foot for foot in feet], [0, 1], -1)
+        self.soles: Bools = np.isin(model.geom_bodyid, np.concatenate(below))
+        self.side = np.select([np.isin(model.geom_bodyid, links) for links in below], [0, 1], -1)
 
     def touched(self, data: Any) -> Bools:
         """Which contacts are between the floor and something other than a foot."""
