@@ -1,6 +1,6 @@
 """Robots that dance: balance, limits, upright or fallen in simulation, and under disturbances.
 
-Usage: ``python benchmarks/robot.py DATA [--only balance,steps,hrp4c,robust,retarget] [--workers 2]``. The folder holds
+Usage: ``python benchmarks/robot.py DATA [--only retarget,balance,steps,robust,hrp4c] [--workers 2]``. The folder holds
 ``g1_moves``, ``cmu`` and ``hrp4c_dance``, which are no part of onbeat; the troupe is.
 
 *Untreated* is the dance on planted feet as its legs come out, played by the servos alone; *compensation* shifts the
@@ -32,8 +32,9 @@ from onbeat.robots.disturb import pushes
 from onbeat.robots.model import robot_named
 from onbeat.robots.perform import Staged, kept_limits, stage
 from onbeat.robots.simulate import Options, simulate
+from robot_retarget import retargeting
 
-PARTS = ("balance", "steps", "robust", "hrp4c")
+PARTS = ("retarget", "balance", "steps", "robust", "hrp4c")
 LONGEST = 30.0  # [s] of a dance that is simulated
 WIDTHS = (9, 7, 8, 4, 5, 9, 12, 9, 9)
 CMU = ("05_02", "05_09", "05_13", "131_01")
@@ -189,11 +190,12 @@ def main() -> None:
     flags = parser.parse_args()
     warnings.simplefilter("ignore")
     parts, speeds = flags.only.split(","), [float(word) for word in flags.speeds.split(",")]
-    found = list(dances(flags.folder)) if {"balance", "steps", "robust"} & {*parts} else []
+    found = list(dances(flags.folder)) if {"retarget", "balance", "steps", "robust"} & {*parts} else []
     runs: dict[str, Callable[[], None]] = {
         "balance": lambda: balance(found, flags.workers, "planted", speeds),
         "steps": lambda: balance(found, flags.workers, "stepping", [1.0]),
         "robust": lambda: robust(found[:8], flags.workers),
+        "retarget": lambda: retargeting([(dance.name, dance.motion) for dance in found[8:]]),
         "hrp4c": lambda: hrp4c(flags.folder),
     }
     for part in parts:

@@ -76,7 +76,8 @@ def retarget(
     return _as_motion(robot, aims, found, times, motion)
 
 
-def _rules(robot: Robot) -> Rules:
+def rules_of(robot: Robot) -> Rules:
+    """What a robot's unknowns have to keep to: ranges and speeds of its hinges, and the pose they rest in."""
     body = robot.body
     count = len(body.names)
     wide, free = np.full(ROOT, np.inf), np.zeros(ROOT)
@@ -92,7 +93,7 @@ def _solved(robot: Robot, aims: Aims, progress: Callable[[float], None]) -> Arra
     """(F, N) the unknowns: first coarsely, then frame by frame, window after window."""
     capsules, frames = capsules_of(robot), len(aims.place)
     problem = Problem(
-        tree_of(robot.body), aims, capsules, _rules(robot), np.ones((frames, len(capsules.pairs))), 1 / RATE
+        tree_of(robot.body), aims, capsules, rules_of(robot), np.ones((frames, len(capsules.pairs))), 1 / RATE
     )
     x = _finer(_coarse(problem.cut(slice(0, frames, COARSE))), frames, problem.rules)
     for start in range(0, frames, int(WINDOW * RATE)):
