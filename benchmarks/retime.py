@@ -1,7 +1,7 @@
 """Retiming inside limits, every method on the same demands in one run.
 
-Usage: ``python benchmarks/retime.py DATA [--only limits,paper,sync,timing,streaming]``. The folder holds ``g1_moves``
-and ``hrp4c_dance``, which are no part of onbeat.
+Usage: ``python benchmarks/retime.py DATA [--only limits,choices,paper,sync,timing,streaming]``. The folder holds
+``g1_moves`` and ``hrp4c_dance``, which are no part of onbeat.
 """
 
 from __future__ import annotations
@@ -14,17 +14,19 @@ from pathlib import Path
 
 import numpy as np
 
+from onbeat.errors import PlanError
 from onbeat.limits.limits import Limits
 from onbeat.limits.named import robot_limits
 from onbeat.retime.demand import Demand
+from onbeat.retime.layers2007 import literal
 from onbeat.retime.measures import measure
 from onbeat.retime.methods import METHODS
 from retime_dances import Dance, arms, base_limits, foreign, g1_dances, hrp4c_dance
-from retime_more import paper, streaming, sync, timing
+from retime_more import choices, paper, streaming, sync, timing
 
 TO_SPEED = 0.05  # [s] from rest to full speed: the acceleration limit where a table has none
 
-PARTS = ("limits", "paper", "sync", "timing", "streaming")
+PARTS = ("limits", "choices", "paper", "sync", "timing", "streaming")
 SETS = ("G1 on g1", "G1's arms on talos", "G1's arms on hrp4c")
 Case = tuple[Dance, Limits]
 
@@ -52,17 +54,21 @@ def table(name: str, found: Sequence[Case], speeds: Sequence[float]) -> None:
         heads = ("past limits", "rms °", "keypose °", "peak acc.", "at full speed", "CPU s")
         under = ("pos., vel. joints", "", "worst, all", "rad/s²", "% of time", "")
         for words in (heads, under):
-            print("  " + " " * 12 + "".join(f"{w:>{n}}" for w, n in zip(words, (18, 7, 17, 11, 15, 7), strict=True)))
-        for method, make in METHODS.items():
+            print("  " + " " * 16 + "".join(f"{w:>{n}}" for w, n in zip(words, (18, 7, 17, 11, 15, 7), strict=True)))
+        for method, make in {**METHODS, "2007, as printed": literal}.items():
             row(method, demands, past, make)
         wish = [np.abs(demand.wish.differences(2)).max(axis=0)[p] for demand, p in zip(demands, past, strict=True)]
-        print(f"  {'the wish':12} {'':>16} {'':>7} {'':>16} {np.concatenate(wish).mean():10.0f}")
+        print(f"  {'the wish':16} {'':>16} {'':>7} {'':>16} {np.concatenate(wish).mean():10.0f}")
 
 
 def row(method: str, demands: Sequence[Demand], past: Sequence[np.ndarray], make: Callable) -> None:
     """One method's line."""
     begin = time.process_time()
-    answers = [make(demand, lambda share: None) for demand in demands]
+    try:
+        answers = [make(demand, lambda share: None) for demand in demands]
+    except PlanError as error:
+        print(f"  {method:16} {error}")
+        return
     spent = time.process_time() - begin
     found = [measure(demand, answer.trajectory) for demand, answer in zip(demands, answers, strict=True)]
     over = np.sum([one.violations for one in found], axis=0)
@@ -73,7 +79,7 @@ def row(method: str, demands: Sequence[Demand], past: Sequence[np.ndarray], make
     worst = np.degrees(max(one.worst_keypose for one in found))
     every = np.degrees(max(float(one.keypose_errors.max(initial=0.0)) for one in found))
     print(
-        f"  {method:12} {over[0]:8d} {over[1]:7d} {np.degrees(mean('rms')):7.2f} {worst:8.2f} {every:7.1f} "
+        f"  {method:16} {over[0]:8d} {over[1]:7d} {np.degrees(mean('rms')):7.2f} {worst:8.2f} {every:7.1f} "
         f"{mean('peak_acceleration'):10.0f} {100 * mean('plateaus'):14.2f} {spent:6.2f}"
     )
 
@@ -94,6 +100,8 @@ def main() -> None:
     if "limits" in parts:
         for name, some in found.items():
             table(name, some, speeds)
+    if "choices" in parts:
+        choices([*found[SETS[2]], *found["G1's arms, 1.45 × base layer"]])
     if "paper" in parts:
         paper(on_hrp4c + on_talos)
     if "sync" in parts:

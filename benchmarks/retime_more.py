@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
@@ -12,11 +13,12 @@ from onbeat.limits.limits import Limits
 from onbeat.motion.joint_angles import JointAngles
 from onbeat.retime.bspline import Spline
 from onbeat.retime.controlpoints import fit
-from onbeat.retime.demand import Demand
+from onbeat.retime.demand import Demand, Method
 from onbeat.retime.lock import TimeMap
 from onbeat.retime.measures import measure
 from onbeat.retime.meeting import meet
 from onbeat.retime.methods import METHODS
+from onbeat.retime.pollard2002 import follow
 from onbeat.retime.sources import Table
 from onbeat.retime.stream import Follower
 from retime_dances import FPS, Dance
@@ -27,6 +29,28 @@ FINE = 4.0  # [Hz] above which a joint's velocity is detail
 
 def silent(share: float) -> None:
     del share
+
+
+def choices(dances: Sequence[tuple[Dance, Limits]]) -> None:
+    """What the constants of a baseline and of ours were chosen by: means over joints that are past a limit, 1.0 ×."""
+    print("\nChoices, on the arms (HRP-4C's table and 1.45 × base layer together)")
+
+    def told(name: str, make: Method, to_speed: float = 0.05) -> None:
+        rms, peak, worst = list[np.ndarray](), list[np.ndarray](), 0.0
+        for dance, limits in dances:
+            demand = dance.demand(limits.with_acceleration(to_speed), 1.0)
+            past = demand.violated(demand.wish.controls, derivatives=False).any(axis=0)
+            found = measure(demand, make(demand, silent).trajectory)
+            rms.append(found.rms[past])
+            peak.append(found.peak_acceleration[past])
+            worst = max(worst, found.worst_keypose)
+        figures = np.degrees(np.concatenate(rms).mean()), np.concatenate(peak).mean(), np.degrees(worst)
+        print(f"  {name:44} rms {figures[0]:5.2f}°, peak {figures[1]:5.0f} rad/s², worst keypose {figures[2]:5.2f}°")
+
+    for stiffness in (10, 50, 100, 200, 400, 800, 1600, 3200):
+        told(f"Pollard's k, {stiffness} 1/s²", partial(follow, stiffness=stiffness))
+    for to_speed in (0.1, 0.07, 0.05, 0.03, 0.01):
+        told(f"qp, rest to full speed in {to_speed:g} s", fit, to_speed)
 
 
 def sync(dances: Sequence[tuple[Dance, Limits]]) -> None:

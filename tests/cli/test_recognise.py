@@ -123,7 +123,7 @@ def test_whole_dances_are_cut_at_their_keyposes_to_learn_from(onbeat: Run, folde
     status, out, err = onbeat("recognise", "train", tmp_path / "dances.csv", "-o", tmp_path / "m.npz", *cut)
     assert status == 0, err
     assert "2 persons" in out
-    assert "no music given" not in err  # the beats beside each file are taken
+    assert "no beats given" not in err  # the beats beside each file are taken
     status, out, _ = onbeat("recognise", "evaluate", tmp_path / "m.npz", tmp_path / "dances.csv", *cut, "--json")
     assert status == 0
     document = json.loads(out)

@@ -98,6 +98,8 @@ def test_every_method_can_be_chosen_and_one_file_be_asked_for(onbeat: Run, folde
         (["dance.bvh", "--speed", "1.2", "--keyposes", "none.json"], "cannot read"),
         (["dance.bvh", "--music", "none.beats"], "none.beats"),
         (["none.bvh", "--speed", "1.2"], "none.bvh"),
+        (["angles.csv", "--music", "song.beats", "--limits", "talos.toml"], "give --beats or --danced-to"),
+        (["dance.bvh", "--speed", "1.2", "--figure", "Tail"], "no joint 'Tail'"),
         (["dance.bvh", "--speed", "1.2", "--margin", "0"], "share of the limits"),
         (["dance.bvh", "--speed", "1.2", "--fps", "0"], "--fps 0"),
     ],

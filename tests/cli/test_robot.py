@@ -56,10 +56,12 @@ def test_a_dance_to_a_song_is_simulated_and_exported(onbeat: Run, folder: Path) 
     ("words", "said"),
     [
         (["dance.bvh", "--robot", "r2d2"], "no robot 'r2d2' is known"),
-        (["dance.bvh", "--speed", "1.2", "--music", "song.beats"], "not both"),
+        (["dance.bvh", "--speed", "1.2", "--music", "song.beats"], "one of them"),
         (["dance.bvh", "--speed", "99"], "--speed 99: give 0.1 to 10"),
         (["dance.bvh", "--robot", "none.urdf"], "none.urdf"),
         (["none.bvh"], "none.bvh"),
+        (["dance.bvh", "--simulate", "--seed", "-3"], "--seed -3: give 0 or more"),
+        (["dance.bvh", "--danced-to", "a.wav", "--beats", "dance.beats"], "one of them"),
     ],
 )
 def test_what_cannot_be_is_told_in_a_line(onbeat: Run, folder: Path, words: list[str], said: str, monkeypatch) -> None:

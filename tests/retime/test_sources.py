@@ -13,7 +13,8 @@ from onbeat.motion.unitree_g1 import G1
 from onbeat.retime.bspline import Spline
 from onbeat.retime.lock import TimeMap
 from onbeat.retime.retime import retime
-from onbeat.retime.sources import Character, Robot, Table, above_the_legs, is_g1, source_of
+from onbeat.retime.sources import Character, Robot, Table, is_g1, source_of
+from onbeat.retime.upper_body import above_the_legs
 
 FPS = 60.0
 BEATS = np.arange(0, 4.01, 0.5)

@@ -12,7 +12,7 @@ from onbeat.examples.dancers import DANCERS
 from onbeat.examples.dances import perform_dance
 from onbeat.motion.hinges import hinge_angles
 from onbeat.retime.lock import TimeMap
-from onbeat.robots.document import lateness, robot_document
+from onbeat.robots.document import robot_document
 from onbeat.robots.leg_ik import Legs
 from onbeat.robots.model import robot_named
 from onbeat.robots.perform import Staged, is_of, limits_of, stage
@@ -62,17 +62,6 @@ def test_it_is_upright_to_the_end_by_its_own_sensors_and_meets_its_beats():
     assert document.trial.beats_met == document.trial.beats > 5
     assert document.zmp.inside == 1.0
     assert document.speed == pytest.approx(1.2)
-
-
-def test_a_motion_that_is_late_is_said_to_be():
-    made = danced()
-    trial = simulate(G1, made.motion[:120], Options())
-    shifted = type(trial)(
-        trial.motion.at(trial.motion.times - 0.1), None, None, trial.times, trial.error, trial.saturated,
-        trial.pressure, trial.load,
-    )  # fmt: skip
-    late = lateness(G1, made, shifted, np.array([1.0, 1.5]))
-    assert np.abs(late - 0.1).max() < 0.035
 
 
 def test_a_robot_of_another_body_is_no_own_motion_but_is_retargeted_from():

@@ -82,8 +82,15 @@ def beats_of(source: Motion | Markers, flags: BeatFlags, local: bool = True) -> 
         return song.beats + flags.song_at, song.downbeats + flags.song_at
     found = motion_beats(source, local)
     tempo = 60.0 / float(np.median(np.diff(found)))
-    print(f"no music given: {len(found)} beats from the motion itself, {tempo:.0f} a minute", file=sys.stderr)  # noqa: T201
+    print(f"no beats given: {len(found)} from the motion itself, {tempo:.0f} a minute", file=sys.stderr)  # noqa: T201
     return found, np.zeros(0)
+
+
+def told_beats(flags: BeatFlags) -> Times:
+    """The beats that are told, or heard in the song that is; none where neither is given."""
+    if flags.beats:
+        return read_beats(flags.beats).times + flags.song_at
+    return _heard(flags.music).beats + flags.song_at if flags.music else np.zeros(0)
 
 
 def _source(path: Path, fps: float | None) -> Motion | Markers:

@@ -13,20 +13,18 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from onbeat.cli.keypose_input import BeatFlags
 from onbeat.cli.progress import Stages, warnings_as_lines
-from onbeat.cli.retime_input import Dance, Music, limits_for, read_dance_of, read_music, read_source
+from onbeat.cli.retime_input import Dance, dance_of, limits_for, read_source
 from onbeat.cli.retime_output import write_all
+from onbeat.cli.time_flags import NO_OWN, NO_TIME, OwnFlags, TimeFlags, When
 from onbeat.errors import OnbeatError
 from onbeat.limits.limits import Limits
 from onbeat.retime.document import RetimeDocument, retime_document
-from onbeat.retime.lock import TimeMap
-from onbeat.retime.meeting import Meeting, meet
+from onbeat.retime.meeting import Meeting
 from onbeat.retime.retime import Retimed, retime
 
 Method = Literal["qp", "layers-qp", "layers2007", "pollard2002", "clamp", "uniform"]
 Flag = Annotated[bool, cyclopts.Parameter(negative=())]
-SPEEDS = (0.1, 10.0)
 SHOWN = 8
 
 
@@ -61,18 +59,12 @@ def retime_command(
     motion: Path,
     /,
     *,
-    speed: float | None = None,
-    music: Path | None = None,
-    first_beat: int | None = None,
+    time: TimeFlags = NO_TIME,
+    own: OwnFlags = NO_OWN,
     limits: LimitFlags = FREE,
     method: Method = "qp",
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])] = Path("retimed"),
-    danced_to: Path | None = None,
-    beats: Path | None = None,
-    song_at: float = 0.0,
-    keyposes: Path | None = None,
     fps: float | None = None,
-    source_fps: float | None = None,
     figure: str | None = None,
     json: Flag = False,
 ) -> None:
@@ -84,79 +76,54 @@ def retime_command(
     ----------
     motion
         The dance: any motion file, a Unitree G1's CSV, or a table of joint angles (CSV with a heading).
-    speed
-        How much faster.
-    music
-        The song to dance to, or its beats (song.json or a list); beat by beat, through changes of tempo.
-    first_beat
-        The music's beat, from 0, on which the dance's first is; the first downbeat without it.
+    time
+        The time that it is to be in.
+    own
+        Its own time.
     limits
         Inside what it has to stay.
     method
         qp: the nearest to the dance. layers-qp, layers2007: by the paper's layers. The others are what others do.
     output
-        A folder for the motion, retime.json, retime.png and retime.html; or the motion's file, with the rest beside it.
-    danced_to
-        The song that the dance was danced to; its beats are heard. Without it and --beats the motion's own pulse.
-    beats
-        The beats of the dance: a file with a time a line, or a song.json.
-    song_at
-        Second of the motion at which --danced-to or --beats begin.
-    keyposes
-        A keyposes.json; without it they are found.
+        A folder for the motion, retime.json, two figures and retime.html; or the motion's file, the rest beside it.
     fps
         Frames a second of the retimed motion; as the dance without it.
-    source_fps
-        Frames a second of a dance that stores none.
     figure
         The joint that the figure shows; the one that is changed most without it.
     json
         Print retime.json on stdout instead of a table.
     """
-    if (speed is None) == (music is None):
-        raise OnbeatError("give --speed, how much faster, or --music, the song to dance to, one of them")
-    if speed is not None and not SPEEDS[0] <= speed <= SPEEDS[1]:
-        raise OnbeatError(f"--speed {speed:g}: give {SPEEDS[0]:g} to {SPEEDS[1]:g}; 1.2 is a fifth faster")
+    time.check()
+    if time.speed is None and time.music is None:
+        raise OnbeatError("give --speed, how much faster, or --music, the song to dance to")
     if fps is not None and not (math.isfinite(fps) and 1 <= fps <= 1000):
         raise OnbeatError(f"--fps {fps:g}: give 1 to 1000 frames a second")
     with warnings_as_lines():
-        source = read_source(motion, source_fps, limits.joints)
+        source = read_source(motion, own.source_fps, limits.joints)
         known = limits_for(source, limits.robot, limits.limits or []).scaled(limits.margin)
-        flags = BeatFlags(danced_to, beats, song_at, source_fps)
-        dance = read_dance_of(source, flags, keyposes)
-        song = None if music is None else read_music(music, first_beat)
-        met = None if song is None else meet(dance.beats, song.beats, song.first)
-        result = _retimed(dance, known, method, fps, speed, song, met)
+        dance = dance_of(source, own, time.music is not None)
+        when = When.of(dance.beats, time)
+        result = _retimed(dance, known, method, fps, when)
         document = retime_document(result)
-        written = write_all(result, document, motion, output, song, figure)
+        written = write_all(result, document, motion, output, when.music, figure)
     if json:
         Console(width=1 << 20, highlight=False).out(document.to_json().decode(), end="")
         return
-    _print(result, document, met)
+    _print(result, document, when.met)
     print(f"written: {', '.join(str(path) for path in written)}")  # noqa: T201
 
 
-def _retimed(
-    dance: Dance,
-    limits: Limits,
-    method: str,
-    fps: float | None,
-    speed: float | None,
-    song: Music | None,
-    met: Meeting | None,
-) -> Retimed:
-    warp = TimeMap.steady(speed or 1.0) if met is None else met.warp
-    until = np.inf if song is None else song.until
+def _retimed(dance: Dance, limits: Limits, method: str, fps: float | None, when: When) -> Retimed:
     with Stages() as stages:
         return retime(
             dance.source,
-            warp,
+            when.warp,
             limits,
             dance.beats,
             dance.keyposes,
             method,
             fps,
-            until,
+            when.until,
             lambda share: stages(method, share),
         )
 

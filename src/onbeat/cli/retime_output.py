@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from onbeat.cli.retime_input import Music
+from onbeat.cli.time_flags import Music
 from onbeat.errors import OnbeatError
 from onbeat.files import make_folder, write_atomically
 from onbeat.formats.joint_table import write_joint_table
@@ -16,6 +16,7 @@ from onbeat.retime.document import RetimeDocument
 from onbeat.retime.retime import Retimed
 from onbeat.retime.sources import Table
 from onbeat.viewer.limits_figure import write_limits_figure
+from onbeat.viewer.retime_curves import look_at
 from onbeat.viewer.retime_figure import write_retime_figure
 from onbeat.viewer.retime_page import write_retime_page
 
@@ -26,6 +27,7 @@ def write_all(
     result: Retimed, document: RetimeDocument, source: Path, output: Path, music: Music | None, joint: str | None
 ) -> list[Path]:
     """Write everything, the motion first; the paths of what was written."""
+    look_at(result, joint)  # refuses a joint that is none, before anything is written
     path = _motion_path(result, source, output)
     folder = make_folder(path.parent)
     if isinstance(result.dance, JointAngles):

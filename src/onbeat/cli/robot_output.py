@@ -10,7 +10,7 @@ import numpy as np
 
 from onbeat._shapes import Float32
 from onbeat.cli.progress import Stages
-from onbeat.cli.retime_input import Music
+from onbeat.cli.time_flags import Music
 from onbeat.files import make_folder, write_atomically
 from onbeat.formats.gmr import write_gmr
 from onbeat.formats.joint_table import write_joint_table

@@ -53,7 +53,7 @@ def motion_beats(source: Motion | Markers, local: bool = True) -> Times:
     if min(len(one.times) for one in rests) < 2:
         raise PlanError(
             f"{label} has no pulse of its own: {(len(source) - 1) / source.fps:.2f} s with {len(rests[-1].times)} "
-            "rests; give the beats (--beats) or the song (--music), or take more of it"
+            "rests; give its beats (--beats) or the song that it is danced to, or take more of it"
         )
     frames = decode_beats(GAIN * (heard - EMPTY), beat_space(RATE, STEADINESS), PRIOR_WEIGHT)
     beats = frames / RATE

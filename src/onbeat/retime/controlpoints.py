@@ -85,16 +85,16 @@ def _away(demand: Demand) -> np.ndarray:
     return np.pad(demand.wish.samples != demand.target, ((1, 1), (0, 0)))
 
 
-def rows_of(demand: Demand, channel: int, first: int = 0) -> list[Rows]:
-    """All bounds of a channel from a control point on; those that are infinite are left out."""
-    step, count = demand.wish.knots.step, len(demand.wish.controls) - first
+def rows_of(demand: Demand, channel: int) -> list[Rows]:
+    """All bounds of a channel; those that are infinite are left out."""
+    step, count = demand.wish.knots.step, len(demand.wish.controls)
     low, high = float(demand.low[channel]), float(demand.high[channel])
     out: list[Rows] = []
     if np.isfinite(low) or np.isfinite(high):
         gap = min(TIGHTER, (high - low) / 4)
         bounds = np.full(count - 1, low + gap), np.full(count - 1, high - gap)
         out += [Rows(shares, *bounds) for shares in _INNER]
-    speed = demand.speed[first:, channel] * step
+    speed = demand.speed[:, channel] * step
     if np.isfinite(speed).any():
         speed = speed - np.minimum(TIGHTER, speed / 4)
         out.append(Rows(_PAIR, -speed, speed))

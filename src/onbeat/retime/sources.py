@@ -18,18 +18,16 @@ from onbeat.limits.limits import Limits
 from onbeat.motion.hinges import HingeBody, hinge_angles, hinge_motion
 from onbeat.motion.joint_angles import JointAngles
 from onbeat.motion.motion import Motion
-from onbeat.motion.roles import find_roles
 from onbeat.motion.skeleton import Skeleton
-from onbeat.motion.tree import ancestors
 from onbeat.motion.unitree_g1 import G1
 from onbeat.retime.bspline import Spline
 from onbeat.retime.channels import Turning
+from onbeat.retime.upper_body import above_the_legs
 
 FLOOR = 0.2
 """Least share of a joint's speed that each of its three components may have, beside what the dance gives it."""
 LASTING = 0.1
 """Seconds over which the direction is taken in which a joint turns."""
-LEGS = ("left_hip", "right_hip")
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,26 +184,6 @@ def is_g1(motion: Motion) -> bool:
     except BodyError:
         return False
     return True
-
-
-def above_the_legs(skeleton: Skeleton) -> tuple[int, ...]:
-    """Every joint that turns but the root, the legs and what carries them; all but the root where no hip is known.
-
-    Examples
-    --------
-    >>> names = ["hips", "chest", "neck", "lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot"]
-    >>> body = Skeleton(names, [-1, 0, 1, 0, 3, 4, 0, 6, 7], np.eye(9, 3))
-    >>> [names[joint] for joint in above_the_legs(body)]
-    ['chest', 'neck']
-    """
-    roles = find_roles(skeleton).joints
-    hips = [roles[role] for role in LEGS if role in roles]
-    carrying = {0}.union(*(ancestors(skeleton, hip) for hip in hips))
-    return tuple(
-        joint
-        for joint in range(len(skeleton))
-        if joint not in carrying and not skeleton.end_sites[joint] and not {*ancestors(skeleton, joint)} & {*hips}
-    )
 
 
 def _told(skeleton: Skeleton, joints: Sequence[str]) -> tuple[int, ...]:

@@ -1,12 +1,14 @@
-"""The joints of the upper body, which 2007 looks at: from the hips up to the head and out to the wrists."""
+"""Which joints are the upper body: what 2007 looks at, and all that may be retimed while feet stay planted."""
 
 from __future__ import annotations
 
 from onbeat.motion.body import ROLES, Body
+from onbeat.motion.roles import find_roles
 from onbeat.motion.skeleton import Skeleton
 from onbeat.motion.tree import ancestors
 
 ENDS = ("head", "left_wrist", "right_wrist")
+LEGS = ("left_hip", "right_hip")
 
 
 def upper_body(skeleton: Skeleton) -> list[str]:
@@ -42,3 +44,24 @@ def named_joints(skeleton: Skeleton, names: list[str]) -> list[str]:
             name = skeleton.names[body.turning(name)] if name in body else name
         out.append(name)
     return list(dict.fromkeys(out))
+
+
+def above_the_legs(skeleton: Skeleton) -> tuple[int, ...]:
+    """Every joint that turns but the root, the legs and what carries them; all but the root where no hip is known.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> names = ["hips", "chest", "neck", "lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot"]
+    >>> body = Skeleton(names, [-1, 0, 1, 0, 3, 4, 0, 6, 7], np.eye(9, 3))
+    >>> [names[joint] for joint in above_the_legs(body)]
+    ['chest', 'neck']
+    """
+    roles = find_roles(skeleton).joints
+    hips = [roles[role] for role in LEGS if role in roles]
+    carrying = {0}.union(*(ancestors(skeleton, hip) for hip in hips))
+    return tuple(
+        joint
+        for joint in range(len(skeleton))
+        if joint not in carrying and not skeleton.end_sites[joint] and not {*ancestors(skeleton, joint)} & {*hips}
+    )

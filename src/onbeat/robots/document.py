@@ -7,23 +7,14 @@ from typing import Annotated
 import msgspec
 import numpy as np
 
-from onbeat._shapes import Array, Times
-from onbeat.motion.hinges import hinge_angles
+from onbeat.retime.document import ViolationsDocument
+from onbeat.robots.lateness import MET, lateness
 from onbeat.robots.model import Robot
 from onbeat.robots.perform import Staged
 from onbeat.robots.trial import Trial
 
 VERSION = 1
-MET = 0.05
-"""Seconds within which a pose of a beat has to be danced for the beat to be met."""
 Said = msgspec.Meta
-
-
-class OverDocument(msgspec.Struct, frozen=True):
-    """How many joints are ever past a limit, looked at a thousand times a second."""
-
-    position: Annotated[int, Said(description="joints")]
-    velocity: Annotated[int, Said(description="joints")]
 
 
 class ZmpDocument(msgspec.Struct, frozen=True):
@@ -58,7 +49,7 @@ class RobotDocument(msgspec.Struct, frozen=True):
     fps: Annotated[float, Said(description="frames a second")]
     duration: Annotated[float, Said(description="seconds")]
     joints: Annotated[list[str], Said(description="in the model's order")]
-    violations: Annotated[OverDocument, Said(description="how many joints are past a limit")]
+    violations: Annotated[ViolationsDocument, Said(description="how many joints are past a limit")]
     zmp: Annotated[ZmpDocument, Said(description="of the plan")]
     standing: Annotated[list[str], Said(description="of each frame the feet that stand: `LR`, `L` or `R`")]
     beats: Annotated[list[float], Said(description="at which the dance's beats are now")]
@@ -87,7 +78,7 @@ def robot_document(robot: Robot, staged: Staged, trial: Trial | None, feet: str)
         fps=round(motion.fps, 6),
         duration=round(motion.duration, 6),
         joints=list(robot.body.names),
-        violations=OverDocument(*over),
+        violations=ViolationsDocument(*over),
         zmp=ZmpDocument(
             round(float((margin >= 0).mean()), 6),
             round(1000 * float(margin.min()), 3),
@@ -108,30 +99,9 @@ def _tried(robot: Robot, staged: Staged, trial: Trial) -> TrialDocument:
     return TrialDocument(
         fell_at=None if trial.fell_at is None else round(trial.fell_at, 3),
         why=trial.why,
-        rms_deg=round(float(np.degrees(np.sqrt(np.square(trial.error).mean()))), 3),
-        worst_deg=round(float(np.degrees(np.abs(trial.error).max(initial=0.0))), 3),
+        rms_deg=round(float(np.degrees(np.sqrt(np.square(trial.rms_error).mean()))), 3),
+        worst_deg=round(float(np.degrees(trial.worst_error.max(initial=0.0))), 3),
         saturated=round(float(trial.saturated.max(initial=0.0)), 4),
         beats=len(inside),
-        beats_met=int(np.sum(np.abs(lateness(robot, staged, trial, inside)) <= MET)),
+        beats_met=int(np.sum(np.abs(lateness(robot, staged.motion, trial.motion, inside)) <= MET)),
     )
-
-
-def lateness(robot: Robot, staged: Staged, trial: Trial, beats: Times) -> Array:
-    """(B,) seconds by which the robot's pose at beats of the dance is later than planned.
-
-    It is the shift, up to a quarter of a second, at which the joints about the beat are nearest to the plan.
-    """
-    plan, done = (hinge_angles(robot.body, motion) for motion in (staged.motion, trial.motion))
-    fps, count = staged.motion.fps, min(len(plan), len(done))
-    reach, wide = max(round(0.25 * fps), 1), max(round(0.15 * fps), 1)
-    out = np.full(len(beats), np.inf)
-    for k, beat in enumerate(np.round(beats * fps).astype(np.int64).tolist()):
-        around = np.arange(max(beat - wide, 0), min(beat + wide + 1, count))
-        if not len(around):
-            continue
-        costs = [
-            float(np.square(done[np.clip(around + shift, 0, count - 1)] - plan[around]).mean())
-            for shift in range(-reach, reach + 1)
-        ]
-        out[k] = (int(np.argmin(costs)) - reach) / fps
-    return out

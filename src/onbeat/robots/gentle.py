@@ -1,7 +1,7 @@
 """Paths over time that keep bounds: of their values, their velocities and their accelerations.
 
-A path is a uniform cubic B-spline. The differences of its control points are, divided by the step, the control points
-of its velocity and (corner by corner) its acceleration; what bounds these bounds the path between its samples, too.
+A path is a uniform cubic B-spline (:mod:`onbeat.retime.bspline`); what bounds its control points and their differences
+bounds the path between its samples, too.
 """
 
 from __future__ import annotations
@@ -11,17 +11,16 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import BSpline
-from scipy.sparse import csr_array, diags_array, eye_array, vstack
+from scipy.sparse import csr_array, diags_array, vstack
 
 from onbeat._shapes import Array
 from onbeat.quadratic import minimise
+from onbeat.retime.bspline import Knots, differences
 
 STEP = 0.05
 """Seconds between knots."""
 SMOOTH = 2 * np.pi * 6.0
 """rad/s: what swings faster than this costs more as jerk than as distance."""
-DEGREE = 3
 
 
 @dataclass(frozen=True)
@@ -43,30 +42,23 @@ class Grid:
         return max(self.step, 1 / self.fps)
 
     @cached_property
+    def knots(self) -> Knots:
+        """From the first frame to the last or a little after."""
+        intervals = max(1, int(np.ceil((self.frames - 1) / self.fps / self._step - 1e-9)))
+        return Knots(0.0, self._step, intervals)
+
+    @property
     def controls(self) -> int:
         """How many control points there are."""
-        return max(1, int(np.ceil((self.frames - 1) / self.fps / self._step - 1e-9))) + DEGREE
+        return self.knots.controls
 
-    @cached_property
-    def _knots(self) -> Array:
-        return self._step * (np.arange(self.controls + DEGREE + 1, dtype=np.float64) - DEGREE)
-
-    def values(self, derivative: int = 0) -> Any:
+    def values(self, derivative: int = 0) -> csr_array:
         """The sparse matrix (F, controls) from control points to values or derivatives at the frames."""
-        low = slice(derivative, len(self._knots) - derivative)
-        times = np.arange(self.frames) / self.fps
-        design = BSpline.design_matrix(times, self._knots[low], DEGREE - derivative, extrapolate=True)
-        return csr_array(design @ self.differences(derivative))
+        return self.knots.design(np.arange(self.frames) / self.fps, derivative)
 
-    def differences(self, order: int) -> Any:
+    def differences(self, order: int) -> csr_array:
         """The sparse matrix (controls − order, controls) to the control points of a derivative."""
-        out = csr_array(eye_array(self.controls))
-        for n in range(order):
-            size = self.controls - n
-            offsets: Any = [0, 1]
-            step: Any = diags_array([-1.0, 1.0], offsets=offsets, shape=(size - 1, size))
-            out = csr_array(step @ out) / self._step
-        return out
+        return csr_array(differences(self.controls, order) / self._step**order)
 
     def hull(self) -> Any:
         """The sparse matrix to the inner Bézier points, between which all values lie, at the frames or not."""
@@ -126,4 +118,4 @@ def gentle(values: Array, fps: float, bounds: Bounds) -> Array:
     cost = grid.closeness() + grid.roughness()
     linear = -grid.values().T @ (values - middle) / len(values)
     found = minimise(cost * 1e2, linear * 1e2, vstack(rows), (low, high), tolerance=1e-7, iterations=100, creeping=True)
-    return values if found is None else middle + grid.values() @ found
+    return values if found is None else np.asarray(middle + grid.values() @ found, dtype=np.float64)
