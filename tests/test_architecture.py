@@ -24,7 +24,8 @@ FLOORS = (
     {"formats", "keyposes", "retime", "metrics", "examples"},
     {"moves", "recognition", "robots"},
     {"dance"},
-    {"live", "viewer"},
+    {"viewer"},
+    {"live"},
     {"cli"},
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}

@@ -1,0 +1,1 @@
+"""The sound feedback system: hear music as it happens, follow it, move."""
