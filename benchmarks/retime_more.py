@@ -118,7 +118,7 @@ def streaming(name: str, dances: Sequence[tuple[Dance, Limits]]) -> None:
     seconds = 0.0
     for dance, limits in dances:
         source = Table(JointAngles(dance.joints, dance.angles, dance.fps))
-        follower = Follower(source, limits, dance.keyposes)
+        follower = Follower.of(source, limits, dance.keyposes)
         now, own, poses = 0.0, 0.0, list[np.ndarray]()
         change = 0.0
         while own < source.curve.knots.end - 3:

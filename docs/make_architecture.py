@@ -12,7 +12,7 @@ PAGE = ROOT / "ARCHITECTURE.md"
 SOURCE = ROOT / "src" / "onbeat"
 ROOMS = (
     "motion", "music", "capture", "limits", "formats", "keyposes", "retime", "metrics", "examples", "moves",
-    "recognition", "robots", "dance", "viewer", "cli",
+    "recognition", "robots", "dance", "viewer", "live", "cli",
 )  # fmt: skip
 """In the order of the floors."""
 BEGIN, END = "<!-- modules: written by docs/make_architecture.py -->\n", "<!-- end of modules -->\n"

@@ -1,12 +1,17 @@
-// Builds the page's shell: one HTML file with style and script inside, which Python fills with a dance.
-// `node build.mjs [OUT]`; the same sources and versions give the same bytes.
+// Builds the pages' shells: HTML files with style and script inside. Python fills that of a dance; the live stage is
+// whole. `node build.mjs [FOLDER]`; the same sources and versions give the same bytes.
 
 import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
+const PAGES = [
+  { name: "dance.html", shell: "src/page.html", script: "src/main.ts", style: "src/style.css" },
+  { name: "live.html", shell: "src/live/page.html", script: "src/live/main.ts", style: "src/live/style.css" },
+];
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const out = process.argv[2] ?? here("../src/onbeat/viewer/static/dance.html");
+const folder = process.argv[2] ?? here("../src/onbeat/viewer/static");
 
 async function bundle(entry) {
   const result = await build({
@@ -23,12 +28,15 @@ async function bundle(entry) {
   return result.outputFiles[0].text.trim();
 }
 
-const [script, style] = [await bundle("src/main.ts"), await bundle("src/style.css")];
-if (/<\/script|<!--/i.test(script)) throw new Error("the script would end its own element");
 const licence = readFileSync(here("node_modules/three/LICENSE"), "utf8").trim();
 const notice = `/* This page holds three.js.\n${licence} */\n`;
-const page = readFileSync(here("src/page.html"), "utf8")
-  .replace("<!--style-->", () => style)
-  .replace("<!--script-->", () => notice + script);
-writeFileSync(out, page);
-console.log(`${out}: ${Math.round(page.length / 1024)} kB`);
+for (const { name, shell, script: entry, style: sheet } of PAGES) {
+  const [script, style] = [await bundle(entry), await bundle(sheet)];
+  if (/<\/script|<!--/i.test(script)) throw new Error(`the script of ${name} would end its own element`);
+  const page = readFileSync(here(shell), "utf8")
+    .replace("<!--style-->", () => style)
+    .replace("<!--script-->", () => notice + script);
+  const out = join(folder, name);
+  writeFileSync(out, page);
+  console.log(`${out}: ${Math.round(page.length / 1024)} kB`);
+}

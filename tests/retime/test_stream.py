@@ -16,7 +16,7 @@ def swinging(limit: float = 9.0) -> Follower:
     seconds = np.arange(0, 40, 1 / 60)
     angles = np.stack((np.sin(2 * np.pi * seconds), 0.5 * np.cos(3 * seconds)), axis=1)
     limits = Limits("arm", ("shoulder", "elbow"), [-1.2, -1.2], [1.2, 1.2], [limit, limit], [90.0, 90.0])
-    return Follower(Table(JointAngles(("shoulder", "elbow"), angles, 60)), limits, np.arange(0.25, 40, 0.5))
+    return Follower.of(Table(JointAngles(("shoulder", "elbow"), angles, 60)), limits, np.arange(0.25, 40, 0.5))
 
 
 def test_the_dance_is_where_the_beats_say_once_it_got_there():

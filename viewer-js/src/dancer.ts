@@ -1,17 +1,17 @@
-// The body: tapering capsules between joints, posed at any time between the frames.
+// The body: tapering capsules between joints, posed as it is at a time.
 
 import * as THREE from "three";
 import type { CapsuleData, PageData } from "./contract";
-import { readPath } from "./data";
 import type { Heat } from "./heat";
+import type { Places } from "./path";
 import { Trunk, type Tube } from "./trunk";
 
 const UP = new THREE.Vector3(0, 1, 0);
 const TINT = new THREE.Color();
 const AROUND = 28; // faces around a capsule
 
-/** What a body is made of, and when. */
-export type Body = Pick<PageData, "joints" | "capsules" | "path" | "spine" | "frames" | "fps" | "floor">;
+/** What a body is made of. */
+export type Body = Pick<PageData, "joints" | "capsules" | "spine" | "floor">;
 
 interface Limb {
   data: CapsuleData;
@@ -25,7 +25,6 @@ export class Dancer {
   readonly joints: Float32Array; // joints x 3 at the time last posed
   readonly ends: THREE.Vector4[] = []; // both ends of each capsule and its radius there
   readonly centre = new THREE.Vector3();
-  private readonly path: Float32Array;
   private readonly limbs: Limb[];
   private readonly trunk?: Trunk;
   private readonly spine: THREE.Vector3[];
@@ -33,11 +32,11 @@ export class Dancer {
   /** With `heat` the body is coloured by it, else in the colours of its clothes. */
   constructor(
     private readonly page: Body,
-    private readonly heat?: Heat,
+    private readonly places: Places,
+    readonly heat?: Heat,
   ) {
-    this.path = readPath(page.path);
     this.joints = new Float32Array(page.joints.length * 3);
-    this.interpolate(0);
+    places.read(0, this.joints);
     this.limbs = page.capsules.map((data) => this.limb(data));
     this.spine = page.spine.map(() => new THREE.Vector3());
     if (page.spine.length > 1) {
@@ -49,7 +48,7 @@ export class Dancer {
   }
 
   pose(time: number): void {
-    this.interpolate(time);
+    this.places.read(time, this.joints);
     this.heat?.read(time);
     const along = new THREE.Vector3();
     this.limbs.forEach(({ data, mesh, length, tube }, i) => {
@@ -72,6 +71,15 @@ export class Dancer {
   /** Metres from the floor to the highest point of the body at the time last posed. */
   get height(): number {
     return Math.max(...this.ends.map((end) => end.z + end.w)) - this.page.floor;
+  }
+
+  /** Gives back what the graphics card holds of it. */
+  dispose(): void {
+    this.group.traverse((part) => {
+      if (!(part instanceof THREE.Mesh)) return;
+      part.geometry.dispose();
+      (part.material as THREE.Material).dispose();
+    });
   }
 
   private wrapTrunk(): void {
@@ -115,25 +123,6 @@ export class Dancer {
     const to = new THREE.Vector3().fromArray(this.joints, 3 * data.b);
     a.lerpVectors(from, to, data.start);
     b.lerpVectors(from, to, data.end);
-  }
-
-  /** Catmull-Rom between frames, so that slow motion is smooth too. */
-  private interpolate(time: number): void {
-    const size = this.joints.length;
-    const last = this.page.frames - 1;
-    const at = Math.min(Math.max(time * this.page.fps, 0), last);
-    const frame = Math.min(Math.floor(at), Math.max(last - 1, 0));
-    const t = at - frame;
-    const [p, q, r, s] = [frame - 1, frame, frame + 1, frame + 2].map((f) => Math.min(Math.max(f, 0), last) * size);
-    const [wp, wq, wr, ws] = [
-      ((2 - t) * t - 1) * t * 0.5,
-      ((3 * t - 5) * t * t + 2) * 0.5,
-      ((4 - 3 * t) * t + 1) * t * 0.5,
-      (t - 1) * t * t * 0.5,
-    ];
-    for (let i = 0; i < size; i++) {
-      this.joints[i] = wp * this.path[p + i] + wq * this.path[q + i] + wr * this.path[r + i] + ws * this.path[s + i];
-    }
   }
 }
 

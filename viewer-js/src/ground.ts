@@ -5,6 +5,10 @@ import * as THREE from "three";
 export const CONTACTS = 12;
 const SIZE = 60; // [m]
 
+const INK = new THREE.Vector3(0.2, 0.21, 0.27); // sRGB, as the shader writes it
+const CHALK = new THREE.Vector3(0.75, 0.79, 0.9);
+const NIGHT = new THREE.Vector3(0.02, 0.02, 0.04);
+
 const VERTEX = /* glsl */ `
 varying vec3 place;
 void main() {
@@ -18,6 +22,8 @@ uniform vec3 middle;
 uniform vec4 contacts[${CONTACTS}]; // x y, height above the ground, radius [m]
 uniform float sinceBeat; // [s]
 uniform float beatStrength;
+uniform vec3 shadeInk;
+uniform vec3 lineInk;
 varying vec3 place;
 
 float grid(vec2 p, float width) {
@@ -42,7 +48,8 @@ void main() {
   float radius = 0.42 + 1.5 * (1.0 - exp(-2.2 * sinceBeat));
   float edge = (away - radius) / (0.03 + 0.10 * sinceBeat);
   float ring = exp(-edge * edge) * exp(-4.0 * sinceBeat) * beatStrength;
-  vec3 colour = mix(vec3(0.2, 0.21, 0.27), vec3(0.886, 0.345, 0.243), ring / (ring + dark + lines + 1e-4));
+  vec3 accent = vec3(0.886, 0.345, 0.243);
+  vec3 colour = (dark * shadeInk + lines * lineInk + ring * accent) / max(ring + dark + lines, 1e-5);
   gl_FragColor = vec4(colour, clamp(max(dark, lines) + 0.7 * ring, 0.0, 1.0));
 }`;
 
@@ -53,11 +60,14 @@ export class Ground {
     contacts: { value: Array.from({ length: CONTACTS }, () => new THREE.Vector4(0, 0, 9, 0.1)) },
     sinceBeat: { value: 9 },
     beatStrength: { value: 0 },
+    shadeInk: { value: INK },
+    lineInk: { value: INK },
   };
+  private readonly shadow = new THREE.ShadowMaterial({ color: "#1d2233", opacity: 0.2 });
 
   constructor(private readonly floor: number) {
     const plane = new THREE.PlaneGeometry(SIZE, SIZE);
-    const shadow = new THREE.Mesh(plane, new THREE.ShadowMaterial({ color: "#1d2233", opacity: 0.2 }));
+    const shadow = new THREE.Mesh(plane, this.shadow);
     shadow.receiveShadow = true;
     const pattern = new THREE.Mesh(
       plane,
@@ -73,6 +83,14 @@ export class Ground {
     );
     pattern.renderOrder = 1;
     this.group.add(shadow, pattern);
+  }
+
+  /** A dark or a light room: chalk on the floor, or ink. */
+  set dark(dark: boolean) {
+    this.uniforms.lineInk.value = dark ? CHALK : INK;
+    this.uniforms.shadeInk.value = dark ? NIGHT : INK;
+    this.shadow.color.set(dark ? "#000000" : "#1d2233");
+    this.shadow.opacity = dark ? 0.5 : 0.2;
   }
 
   update(centre: THREE.Vector3, ends: readonly THREE.Vector4[], sinceBeat: number, strength: number): void {

@@ -1,12 +1,17 @@
 // The page: reads its data, sets the stage, and draws every frame at the time the clock says.
 
+import { Caption } from "./caption";
 import { Clicks } from "./clicks";
 import { Clock } from "./clock";
 import { ClipColours } from "./colours";
 import type { PageData } from "./contract";
 import { lastBefore, readPage } from "./data";
+import { Dancer } from "./dancer";
+import { Heat } from "./heat";
 import { Keyposes } from "./keyposes";
+import { Master } from "./master";
 import { Panel } from "./panel";
+import { StoredPath } from "./path";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
 
@@ -14,7 +19,7 @@ function start(): void {
   const page = readPage();
   const clock = new Clock(page.duration, page.audio !== null);
   const colours = new ClipColours(page.moves.map((move) => move.clip));
-  const stage = new Stage(element("scene") as HTMLCanvasElement, page);
+  const stage = stageOf(page);
   let caughtUp = true;
   const seek = (time: number): void => {
     clock.seek(time);
@@ -49,6 +54,18 @@ function start(): void {
   expose(page, clock, stage, clicks, keyposes, seek);
 }
 
+/** The dancer on its stage, with whom it is held against. */
+function stageOf(page: PageData): Stage {
+  const compared = page.compared;
+  const heat = compared?.heat ? new Heat(compared.heat, page.joints.length, page.fps) : undefined;
+  const dancer = new Dancer(page, new StoredPath(page), heat);
+  const company = compared && {
+    master: new Master(compared, page, dancer.height),
+    captions: compared.captions.map((words) => new Caption(words, page.floor, dancer.height)),
+  };
+  return new Stage(element("scene") as HTMLCanvasElement, page, dancer, company ?? undefined);
+}
+
 function lastBeat(page: PageData, time: number): { since: number; strength: number } {
   const index = lastBefore(page.beats, time);
   if (index < 0) return { since: 9, strength: 0 };
@@ -70,7 +87,7 @@ function expose(
     duration: page.duration,
     names: page.joints,
     joints: Array.from(stage.dancer.joints),
-    heat: Array.from(stage.heat?.levels ?? []),
+    heat: Array.from(stage.dancer.heat?.levels ?? []),
     master: stage.master?.place ?? null,
     size: stage.master?.dancer.group.scale.x ?? 1,
     other: Array.from(stage.master?.dancer.joints ?? []),

@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import type { ComparedData, PageData } from "./contract";
 import { Dancer } from "./dancer";
+import { StoredPath } from "./path";
 
 const PLACES = ["beside", "over", "hidden"] as const;
 const APART = 0.85; // of the dancer's height
@@ -21,7 +22,7 @@ export class Master {
   private readonly began: THREE.Vector3; // [m] about which it has that size
 
   constructor(compared: ComparedData, page: PageData, height: number) {
-    this.dancer = new Dancer({ ...page, ...compared.body });
+    this.dancer = new Dancer({ ...compared.body, floor: page.floor }, new StoredPath({ ...page, ...compared.body }));
     // To the left of who looks at the dancer's front.
     const apart = compared.apart || APART * height;
     this.aside = new THREE.Vector3(Math.cos(page.facing), Math.sin(page.facing), 0).multiplyScalar(apart);

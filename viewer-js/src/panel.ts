@@ -114,7 +114,7 @@ export class Panel {
     const compared = this.page.compared;
     document.body.classList.toggle("compared", compared !== null);
     if (!compared) return;
-    this.stage.heat?.legend(at("heat"), compared.name, compared.who);
+    this.stage.dancer.heat?.legend(at("heat"), compared.name, compared.who);
     on("master", () => this.nextMaster());
     at("master").title = `The ${compared.who} beside, over as a ghost, or hidden (m)`;
     text("who", compared.who);

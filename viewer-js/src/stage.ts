@@ -2,20 +2,28 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Caption } from "./caption";
 import type { PageData } from "./contract";
-import { Caption } from "./caption";
-import { Dancer } from "./dancer";
+import type { Dancer } from "./dancer";
 import { Ground } from "./ground";
-import { Heat } from "./heat";
-import { Master } from "./master";
+import type { Master } from "./master";
 
 const FOLLOW = 1.6; // [1/s] how fast the camera goes after the dancer
 const FIELD_OF_VIEW = 30; // [degrees]
 
+/** Where the ground is, whither the dancer faces at first, and how much more room than it stands in it gets. */
+export interface Place extends Pick<PageData, "floor" | "facing"> {
+  room?: number;
+}
+
+/** Who else is on the stage, and the names under both. */
+export interface Company {
+  master: Master;
+  captions: Caption[];
+}
+
 export class Stage {
   follow = true;
-  readonly dancer: Dancer;
-  readonly heat?: Heat;
   readonly master?: Master;
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
@@ -24,24 +32,22 @@ export class Stage {
   private readonly ground: Ground;
   private readonly sun = new THREE.DirectionalLight("#fff4e6", 2.1);
   private readonly target = new THREE.Vector3();
-  private readonly captions: Caption[] = [];
+  private readonly captions: Caption[];
   private drawn = -1; // [s] the time last drawn
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly page: PageData,
+    private readonly page: Place,
+    public dancer: Dancer,
+    company?: Company,
   ) {
     this.renderer = rendererOn(canvas);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
-    if (page.compared?.heat) this.heat = new Heat(page.compared.heat, page.joints.length, page.fps);
-    this.dancer = new Dancer(page, this.heat);
-    if (page.compared) {
-      this.master = new Master(page.compared, page, this.dancer.height);
-      this.scene.add(this.master.dancer.group);
-      this.captions = page.compared.captions.map((words) => new Caption(words, page.floor, this.dancer.height));
-      for (const { sprite } of this.captions) this.scene.add(sprite);
-    }
+    this.master = company?.master;
+    this.captions = company?.captions ?? [];
+    if (this.master) this.scene.add(this.master.dancer.group);
+    for (const { sprite } of this.captions) this.scene.add(sprite);
     this.ground = new Ground(page.floor);
     this.scene.add(this.dancer.group, this.ground.group);
     this.addLights();
@@ -83,6 +89,22 @@ export class Stage {
   /** Bring the camera to the dancer at once, as after a seek. */
   catchUp(): void {
     if (this.follow) this.goAfter(this.middle(), 1);
+  }
+
+  /** Another dancer comes in place of the one that was there. */
+  replace(dancer: Dancer): void {
+    this.scene.remove(this.dancer.group);
+    this.dancer.dispose();
+    this.dancer = dancer;
+    this.scene.add(dancer.group);
+    this.placeCamera();
+    this.drawn = -1;
+  }
+
+  /** A dark or a light room. */
+  set dark(dark: boolean) {
+    this.ground.dark = dark;
+    this.drawn = -1;
   }
 
   /** Puts the master beside the dancer, over it, or away. */
@@ -139,7 +161,7 @@ export class Stage {
     this.target.set(middle.x, middle.y, this.page.floor + 0.5 * height);
     const wide = this.master ? 0.55 + this.master.shift.length() / height : 0.74; // of the height
     const narrow = Math.min(this.camera.aspect / wide, 1);
-    const away = (0.78 * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+    const away = (0.78 * (this.page.room ?? 1) * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
     const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
     this.camera.position.copy(this.target).addScaledVector(out, away);
     this.controls.target.copy(this.target);

@@ -69,6 +69,11 @@ COMMANDS = {
         "Put a dance on a humanoid robot: retargeted, on the music, inside limits, balanced; simulated and exported.",
         "onbeat robot dance.bvh --robot g1 --speed 1.2 --simulate -o out",
     ),
+    "live": (
+        "onbeat.cli.live:live_command",
+        "Hear music as it happens and dance on it: poses a hundred times a second, for a page, OSC, MIDI, a robot.",
+        "onbeat live --input mic --osc 127.0.0.1:9000",
+    ),
     "robots": (
         "onbeat.cli.robots:robots_command",
         "List the robots that are known by name, or what the joints of one can do: how far, how fast.",

@@ -89,11 +89,11 @@ def plant_feet(
         changed |= np.abs(offsets).max(axis=1) > 1e-7
     roots = pose.roots - sunk(body, world, {side: foot.ankles for side, foot in targets.items()}, changed, times)
     frames = np.flatnonzero(changed | np.any(roots != pose.roots, axis=1))
-    return _stepped(body, Pose(pose.rotations, roots), targets, frames)
+    return stepped(body, Pose(pose.rotations, roots), targets, frames)
 
 
-def _stepped(body: Body, pose: Pose, targets: dict[str, Foot], frames: Ints) -> Pose:
-    """The poses with both feet put to their targets in ``frames``."""
+def stepped(body: Body, pose: Pose, targets: dict[str, Foot], frames: Ints) -> Pose:
+    """The poses with both feet put to their targets, one a side, in ``frames``."""
     rotations, roots = pose.rotations[frames], pose.roots[frames]
     world = forward_kinematics(body.skeleton, rotations, roots)
     for side, foot in targets.items():
@@ -110,33 +110,50 @@ def _offsets(shown: Foot, blended: Foot, rests: Bools, moves: Ints, windows: Win
     for first, last in runs(rests):
         if inside[first:last].any():
             span = slice(first, last)
-            anchored = _anchored(shown.part(span), moves[span], windows, times[span])
-            turned = rot.log(rot.multiply(anchored.turns, rot.inverse(blended.turns[span])))
-            offsets[span] = np.concatenate((anchored.ankles - blended.ankles[span], turned), axis=1)
+            part = shown.part(span)
+            held_at = anchored(part, anchors(part, moves[span]), moves[span], windows, times[span])
+            offsets[span] = offset_between(blended.part(span), held_at)
             held[span] = True
-    return _eased(offsets, held, rests, times)
+    return eased(offsets, held, rests, times)
 
 
-def _anchored(foot: Foot, moves: Ints, windows: Windows, times: Times) -> Foot:
-    """The clips' own foot through one run, its pieces moved and turned on the floor so that they meet at the joins.
+def offset_between(foot: Foot, goal: Foot) -> Array:
+    """(F, 6) from one foot to another: metres of the ankle, and a world rotation vector in radians."""
+    turned = rot.log(rot.multiply(goal.turns, rot.inverse(foot.turns)))
+    return np.concatenate((goal.ankles - foot.ankles, turned), axis=1)
 
-    The pieces are moved such that, weighed by how long they last, they are moved the least. Height and tilt of the two
-    clips at a join are eased into each other over its window.
+
+def anchors(foot: Foot, moves: Ints, given: Array | None = None) -> Array:
+    """(F, 4) how the pieces of one run are moved on the floor so that they meet at the joins: x, y, z = 0 and yaw.
+
+    They are moved such that, weighed by how long they last, they are moved the least.
+
+    Parameters
+    ----------
+    foot : the clips' own through one run.
+    moves : (F,) the move each frame shows.
+    given : (4,) how the first piece is moved, where that is settled already.
     """
-    soles, turns = foot.soles.copy(), foot.turns.copy()
     joins = np.flatnonzero(np.diff(moves)) + 1
-    pieces = np.split(np.arange(len(moves)), joins)
-    weights = np.array([len(piece) for piece in pieces]) / len(moves)
-    gaps = np.array([twist(turns[j - 1], turns[j]) for j in joins])
-    yaws = np.concatenate(([0.0], -np.cumsum(gaps)))
-    gaps = (soles[joins - 1] - soles[joins]) * np.array([1.0, 1.0, 0.0])
+    edges = np.concatenate(([0], joins, [len(moves)]))
+    weights = np.diff(edges) / len(moves)
+    turned = np.array([twist(foot.turns[j - 1], foot.turns[j]) for j in joins])
+    gaps, yaws = np.zeros((0, 3)), np.concatenate(([0.0], -np.cumsum(turned)))
+    if len(joins):
+        gaps = (foot.soles[joins - 1] - foot.soles[joins]) * np.array([1.0, 1.0, 0.0])
     shifts = np.concatenate((np.zeros((1, 3)), np.cumsum(gaps, axis=0)))
-    keep = int(np.argmin(np.linalg.norm(shifts[:, None] - shifts, axis=-1) @ weights))
-    yaws, shifts = yaws - yaws[keep], shifts - shifts[keep]
-    for piece, yaw, shift in zip(pieces, yaws, shifts, strict=True):
-        turns[piece] = rot.multiply(rot.yaw(yaw), turns[piece])
-        soles[piece] += shift
-    for j in joins.tolist():
+    keep = int(np.argmin(np.linalg.norm(shifts[:, None] - shifts, axis=-1) @ weights)) if given is None else 0
+    pieces = np.column_stack((shifts - shifts[keep], yaws - yaws[keep]))
+    return np.repeat(pieces if given is None else pieces + given, np.diff(edges), axis=0)
+
+
+def anchored(foot: Foot, anchors: Array, moves: Ints, windows: Windows, times: Times) -> Foot:
+    """The clips' own foot through one run, moved and turned on the floor by its anchors (F, 4).
+
+    Height and tilt of the two clips at a join are eased into each other over its window.
+    """
+    soles, turns = foot.soles + anchors[:, :3], rot.multiply(rot.yaw(anchors[:, 3]), foot.turns)
+    for j in (np.flatnonzero(np.diff(moves)) + 1).tolist():
         _meet(soles, turns, j, moves, windows, times)
     arms = rot.rotate(rot.inverse(foot.turns), foot.ankles - foot.soles)
     return Foot(soles + rot.rotate(turns, arms), soles, turns)
@@ -154,8 +171,8 @@ def _meet(soles: Positions, turns: Rotations, frame: int, moves: Ints, windows: 
     turns[near] = rot.multiply(turns[near], rot.exp(tilt * share[:, None]))
 
 
-def _eased(offsets: Array, held: Bools, rests: Bools, times: Times) -> Array:
-    """Offsets (F, 6) with those between held runs filled by cubics that go to zero within a step."""
+def eased(offsets: Array, held: Bools, rests: Bools, times: Times) -> Array:
+    """Offsets (F, 6) with those between runs that are ``held`` (F,) filled by cubics that go to zero within a step."""
     out, frames = offsets.copy(), len(offsets)
     step = times[1] - times[0] if frames > 1 else 1.0
     ease, quickest = max(1, round(EASE / step)), max(1, round(QUICKEST / step))

@@ -93,7 +93,7 @@ def realise(
     shown_world = forward_kinematics(sources.skeleton, shown.rotations, shown.roots)
     limits = _peaks(sources, shown_world[1], moves, times) if peaks is None else peaks
     windows = fitted_windows(sources, how, limits)
-    pose = _joined(sources, windows, how, shown, times)
+    pose = joined(sources, windows, how, shown, times)
     standing_now = standing_at(sources, standing, moves, times)
     turned = shown_world[0][:, body.indices("left_ankle", "right_ankle")]
     soles = shown_world[1][:, body.indices(*(f"{side}_{contact_role(body)}" for side in SIDES))]
@@ -112,8 +112,8 @@ def _blend(name: str) -> Blend:
     return BLENDS[name]
 
 
-def _joined(sources: Sources, windows: Windows, blend: Blend, shown: Pose, times: Times) -> Pose:
-    """The shown poses with those inside windows replaced by blended ones."""
+def joined(sources: Sources, windows: Windows, blend: Blend, shown: Pose, times: Times) -> Pose:
+    """The poses shown at ``times`` (F,), with those inside windows replaced by blended ones."""
     join = windows.join_at(times)
     inside = np.flatnonzero(join >= 0)
     rotations, roots = shown.rotations.copy(), shown.roots.copy()

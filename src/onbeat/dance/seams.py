@@ -95,7 +95,7 @@ def _easing(times: Array) -> Array:
     return np.interp(times, fine, gaussian_filter1d(slope, SMOOTHING / 0.001))
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _stops(speed, times, moving, dip, out):
     """As ``features.find_stops``, into ``out``; how many were found."""
     count, peak, valley, place = 0, 0.0, 1e9, -1
@@ -121,7 +121,7 @@ def _stops(speed, times, moving, dip, out):
     return count
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _merge(left, n, right, m, together, out):
     """As ``features.merge_stops``, into ``out``."""
     i = j = count = 0
@@ -139,7 +139,7 @@ def _merge(left, n, right, m, together, out):
     return count
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def _compare(
     paths, speeds, starts, left, right, leave_clip, enter_clip, leave_s, enter_s, stop_ptr, stops, step, easing, half
 ):

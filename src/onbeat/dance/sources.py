@@ -161,23 +161,23 @@ def placed(sources: Sources, body: Body, standing: Sequence[Bools], steer: float
     standing : for each clip, (F, 2) true where the left, right foot rests.
     steer : radians, 0 for facing that goes on exactly.
     """
-    gaps, left, entered = _pivots(sources, body, standing)
+    gaps, left, entered = pivots(sources, body, standing)
     first = sources.pose(np.zeros(1, np.int64), np.zeros(1))
     start = Motion(sources.skeleton, first.rotations, first.roots, fps=1.0)
     turn = -float(facing(body_frames(start, body)[0])[0])
-    shift = _ground(-rot.rotate(rot.yaw(turn), start.positions[0, body["hips"]]))
+    shift = on_ground(-rot.rotate(rot.yaw(turn), start.positions[0, body["hips"]]))
     straight = _chained(sources, turn, shift, gaps, left, entered)
     if steer <= 0 or not len(gaps):
         return straight
     times = np.arange(0.0, sources.plan.duration, PATH_STEP)
     path = straight.pose(straight.moves_at(times), times).roots
-    pivots = rot.rotate(rot.yaw(straight.turns[:-1]), left) + straight.shifts[:-1]
-    steered = gaps + steering(pivots, sources.joins, path, times, steer)
+    staying = rot.rotate(rot.yaw(straight.turns[:-1]), left) + straight.shifts[:-1]
+    steered = gaps + steering(staying, sources.joins, path, times, steer)
     return _chained(sources, turn, shift, steered, left, entered)
 
 
-def _pivots(sources: Sources, body: Body, standing: Sequence[Bools]) -> tuple[Array, Positions, Positions]:
-    """(K,) radians from the facing entered to the facing left, and (K, 3) the staying point in both clips."""
+def pivots(sources: Sources, body: Body, standing: Sequence[Bools]) -> tuple[Array, Positions, Positions]:
+    """(K,) radians from the facing entered to the facing left, and (K, 3) the point that stays, as left and entered."""
     joins, count = sources.joins, len(sources.joins)
     moves, times = np.concatenate((np.arange(count), np.arange(1, count + 1))), np.concatenate((joins, joins))
     if not count:
@@ -197,7 +197,7 @@ def _pivots(sources: Sources, body: Body, standing: Sequence[Bools]) -> tuple[Ar
 def _chained(sources: Sources, turn: float, shift: Array, gaps: Array, left: Positions, entered: Positions) -> Sources:
     """Each move placed so that its entered point comes to where the move before left it, turned by the gap."""
     turns = turn + np.concatenate(([0.0], np.cumsum(gaps)))
-    steps = _ground(rot.rotate(rot.yaw(turns[:-1]), left) - rot.rotate(rot.yaw(turns[1:]), entered))
+    steps = on_ground(rot.rotate(rot.yaw(turns[:-1]), left) - rot.rotate(rot.yaw(turns[1:]), entered))
     shifts = shift + np.concatenate((np.zeros((1, 3)), np.cumsum(steps, axis=0)))
     return Sources(sources.clips, sources.plan, sources.warp, sources.starts, turns, shifts)
 
@@ -218,7 +218,8 @@ def standing_at(sources: Sources, standing: Sequence[Bools], moves: Ints, times:
     return out
 
 
-def _ground(shift: Positions) -> Positions:
+def on_ground(shift: Positions) -> Positions:
+    """Metres (..., 3) along the floor only."""
     return shift * np.array([1.0, 1.0, 0.0])
 
 

@@ -33,7 +33,13 @@ class Steps:
 
 
 def steps_between(
-    contacts: Bools, soles: Positions, turns: Rotations, moves: Ints, windows: Windows, times: Times
+    contacts: Bools,
+    soles: Positions,
+    turns: Rotations,
+    moves: Ints,
+    windows: Windows,
+    times: Times,
+    strayed: Array | None = None,
 ) -> Steps:
     """The clips' contacts, less the middle of windows through which a foot cannot rest.
 
@@ -48,9 +54,10 @@ def steps_between(
     moves : (F,) the move each frame shows.
     windows : of the joins.
     times : (F,) seconds.
+    strayed : (2, 3) how far the first frame's clip has strayed already from where each foot came down: x, y and yaw.
     """
     out, lifts = contacts.copy(), np.zeros(contacts.shape)
-    strayed, landed = np.zeros((2, 3)), np.zeros(2, np.int64)  # from where each foot came down: x, y and yaw
+    strayed, landed = np.zeros((2, 3)) if strayed is None else strayed.copy(), np.zeros(2, np.int64)
     for frame in (np.flatnonzero(np.diff(moves)) + 1).tolist():
         join = int(moves[frame - 1])
         half = PARTED * windows.spans[join] / 2

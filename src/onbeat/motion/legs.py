@@ -18,6 +18,8 @@ STRAIGHT = 0.999
 """Part of the leg's length to which it is stretched at most, unless it is straighter already."""
 FOLDED = 1.02
 """A folded leg stays longer than this times the difference of its bones."""
+BACKWARD = 0.35
+"""Radians; a knee that is bent further than this against its hinge bends so: the hinge, read at rest, is misjudged."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,8 @@ def bend_leg(hip: Positions, knee: Positions, ankle: Positions, target: Position
     wanted = np.clip(reach, np.minimum(FOLDED * np.abs(a - b) + 1e-6, now), longest)
     swing = rot.between(ankle - hip, target - hip)
     # The knee bends about its hinge; one that is overstretched stays so only while the leg gets no shorter.
-    bends = np.where((sign < 0) & (wanted >= now - 1e-9), -1.0, 1.0)
+    misjudged = np.pi - _corner(a, b, now) > BACKWARD
+    bends = np.where((sign < 0) & ((wanted >= now - 1e-9) | misjudged), -1.0, 1.0)
     at_hip = bends * _corner(a, wanted, b) - sign * _corner(a, now, b)
     at_knee = bends * (np.pi - _corner(a, b, wanted)) - sign * (np.pi - _corner(a, b, now))
     axis = rot.rotate(swing, normal)

@@ -38,8 +38,19 @@ def inverse(q: Rotations) -> Rotations:
 def rotate(q: Rotations, v: Positions) -> Positions:
     """Vectors (..., 3) turned by rotations (..., 4): ``v + 2w(u×v) + 2u×(u×v)``."""
     u = q[..., 1:]
-    t = 2.0 * np.cross(u, v)
-    return v + q[..., :1] * t + np.cross(u, t)
+    t = 2.0 * _cross(u, v)
+    return v + q[..., :1] * t + _cross(u, t)
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """As ``np.cross``, to the bit; a third of its time on few vectors."""
+    out = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    out[..., 0] = ay * bz - az * by
+    out[..., 1] = az * bx - ax * bz
+    out[..., 2] = ax * by - ay * bx
+    return out
 
 
 def normalise(q: Rotations) -> Rotations:

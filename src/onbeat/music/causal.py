@@ -188,6 +188,16 @@ class CausalTracker:
         return self._moved > MOVING
 
     @property
+    def agreement(self) -> float:
+        """Share 0…1 of all readings of the music that agree with the one that is followed."""
+        return float(min(max(self._announcer.share, 0.0), 1.0))
+
+    @property
+    def evidence(self) -> float:
+        """How much likelier the last seconds are with beats than without, as a logarithm per second."""
+        return float(self._evidence)
+
+    @property
     def tempo(self) -> float:
         """Beats per minute; 0 before there are any."""
         return 60.0 * self._frame_rate / self._announcer.period if self._announcer.period else 0.0

@@ -52,9 +52,9 @@ class Turning:
         7.0
         """
         rotations = motion.rotations[:, list(joints)]
-        means = np.stack([_mean(rotations[:, k]) for k in range(len(joints))]) if len(joints) else np.zeros((0, 4))
+        means = np.stack([mean_rotation(rotations[:, k]) for k in range(len(joints))]) if len(joints) else np.zeros((0, 4))
         vectors = rot.log(rot.multiply(rot.inverse(means), rotations))
-        for k in np.flatnonzero(_turns(vectors[1:], vectors[:-1]).any(axis=0)).tolist():
+        for k in np.flatnonzero(whole_turns(vectors[1:], vectors[:-1]).any(axis=0)).tolist():
             vectors[:, k] = unwrapped(vectors[:, k])
         return cls(np.asarray(joints, dtype=np.int64), means, vectors)
 
@@ -63,7 +63,7 @@ class Turning:
         return rot.multiply(self.means, rot.exp(vectors))
 
 
-def _mean(rotations: Rotations) -> Rotations:
+def mean_rotation(rotations: Rotations) -> Rotations:
     """The mean of rotations (F, 4): the main axis of Σ q qᵀ, for which signs do not matter."""
     return rot.normalise(np.linalg.eigh(rotations.T @ rotations)[1][:, -1])
 
@@ -72,13 +72,13 @@ def unwrapped(vectors: Array) -> Array:
     """Rotation vectors (F, 3) of which each is, of all that mean its rotation, the one nearest to the last."""
     out = np.array(vectors, dtype=np.float64)
     for frame in range(1, len(out)):
-        turns = float(_turns(out[frame], out[frame - 1]))
+        turns = float(whole_turns(out[frame], out[frame - 1]))
         if turns:
             out[frame] += 2 * np.pi * turns * _axis(out[frame], out[frame - 1])
     return out
 
 
-def _turns(vectors: Array, last: Array) -> Array:
+def whole_turns(vectors: Array, last: Array) -> Array:
     """By how many whole turns about their own axes vectors (…, 3) come nearest to the last."""
     length = np.linalg.norm(vectors, axis=-1)
     return np.round((np.sum(_axis(vectors, last) * last, axis=-1) - length) / (2 * np.pi))

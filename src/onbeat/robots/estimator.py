@@ -1,3 +1,5 @@
+# The compiled functions take plain arrays and numbers, which numba types itself.
+# pyright: reportMissingParameterType=false, reportUnknownParameterType=false
 """What a robot knows of itself: joint encoders and an inertial sensor in its pelvis, late and noisy.
 
 The orientation is the gyroscope's, integrated, and turned slowly to where the accelerometer says that up is (Mahony et
@@ -15,10 +17,10 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import njit
 
 from onbeat._shapes import Array
 from onbeat.errors import BodyError
-from onbeat.motion import rotations as rot
 from onbeat.robots.reference import Reference
 
 GRAVITY = 9.81
@@ -74,24 +76,22 @@ def brought_on(state: State, told: Reference, then: int, now: int) -> State:
     """
     if then == now:
         return state
-    before, after = told.qpos[then], told.qpos[now]
-    turn = rot.multiply(state.qpos[3:7], rot.multiply(rot.inverse(before[3:7]), after[3:7]))
-    rest = state.qpos + after - before
-    qpos = np.concatenate((rest[:3], turn, rest[7:]))
-    return State(qpos, state.qvel + told.qvel[now] - told.qvel[then])
+    rest = state.qpos + told.qpos[now] - told.qpos[then]
+    _turned_on(state.qpos[3:7], told.qpos[then, 3:7], told.qpos[now, 3:7], rest[3:7])
+    return State(rest, state.qvel + told.qvel[now] - told.qvel[then])
 
 
 class Truth:
     """The robot's state as it is, or as it was some ticks ago."""
 
     def __init__(self, told: Reference, late: int) -> None:
-        self._told, self._late = told, late
+        self.told, self._late = told, late
         self._line = deque[State](maxlen=late + 1)
 
     def state(self, data: Any, tick: int) -> State:
         """The oldest state in the line, brought on to this tick."""
         self._line.append(State(data.qpos.copy(), data.qvel.copy()))
-        return brought_on(self._line[0], self._told, max(tick - self._late, 0), tick)
+        return brought_on(self._line[0], self.told, max(tick - self._late, 0), tick)
 
 
 class _Reading(NamedTuple):
@@ -113,7 +113,7 @@ class Estimate:
     """
 
     def __init__(self, told: Reference, rate: float, late: int, noise: Noise, rng: np.random.Generator) -> None:
-        self._told, self._rate, self._noise, self._rng = told, rate, noise, rng
+        self.told, self._rate, self._noise, self._rng = told, rate, noise, rng
         self._line = deque[_Reading](maxlen=late + 1)
         self._gyro_bias = rng.normal(0, noise.gyro_bias, 3)
         self._acceleration_bias = rng.normal(0, noise.acceleration_bias, 3)
@@ -132,11 +132,11 @@ class Estimate:
         self._angles = reading.angles
         still = np.zeros(3)
         known = State(np.concatenate((still, self._turn, self._angles)), np.concatenate((still, spin, self._speeds)))
-        return brought_on(known, self._told, then, tick)
+        return brought_on(known, self.told, then, tick)
 
     def _read(self, data: Any) -> _Reading:
-        noise, back = self._noise, rot.inverse(data.qpos[3:7])
-        specific = rot.rotate(back, data.qacc[:3] + np.array([0, 0, GRAVITY]))
+        noise, specific, up = self._noise, np.empty(3), np.array([0, 0, GRAVITY])
+        _seen_from(data.qpos[3:7], data.qacc[:3] + up, specific)
         step = max(noise.step, 1e-12)
         return _Reading(
             data.qvel[3:6] + self._gyro_bias + self._rng.normal(0, noise.gyro, 3),
@@ -146,12 +146,53 @@ class Estimate:
 
     def _turned(self, reading: _Reading, tick: int) -> Array:
         """Turn the estimate by one reading; the angular velocity (3,) in the root's frame."""
-        told, back = self._told.qvel, rot.inverse(self._turn)
+        told, spin = self.told.qvel, np.empty(3)
         before, after = max(tick - 1, 0), min(tick + 1, len(told) - 1)
         meant = (told[after, :3] - told[before, :3]) * self._rate / max(after - before, 1)
-        up = reading.acceleration - rot.rotate(back, meant)
-        wrong = np.cross(up / max(float(np.linalg.norm(up)), 1e-6), rot.rotate(back, np.array([0, 0, 1.0])))
-        self._bias = self._bias - SLOW**2 / 4 * wrong / self._rate
-        spin = reading.gyro - self._bias
-        self._turn = rot.normalise(rot.multiply(self._turn, rot.exp((spin + SLOW * wrong) / self._rate)))
+        _filtered(self._turn, self._bias, reading.gyro, reading.acceleration, meant, 1 / self._rate, spin)
         return spin
+
+
+@njit(cache=True, nogil=True)
+def _product(a, b, sign, out):
+    """Hamilton's product of a, its vector times sign (−1 for the inverse), and b."""
+    aw, ax, ay, az = a[0], sign * a[1], sign * a[2], sign * a[3]
+    bw, bx, by, bz = b[0], b[1], b[2], b[3]
+    out[0] = aw * bw - ax * bx - ay * by - az * bz
+    out[1] = aw * bx + ax * bw + ay * bz - az * by
+    out[2] = aw * by - ax * bz + ay * bw + az * bx
+    out[3] = aw * bz + ax * by - ay * bx + az * bw
+
+
+@njit(cache=True, nogil=True)
+def _turned_on(turn, before, after, out):
+    step = np.empty(4)
+    _product(before, after, -1.0, step)
+    _product(turn, step, 1.0, out)
+
+
+@njit(cache=True, nogil=True)
+def _seen_from(turn, vector, out):
+    """A vector of the world in a frame that is turned so."""
+    u = -turn[1:]
+    t = 2.0 * np.cross(u, vector)
+    out[:] = vector + turn[0] * t + np.cross(u, t)
+
+
+@njit(cache=True, nogil=True)
+def _filtered(turn, bias, gyro, acceleration, meant, seconds, spin):
+    """One step of the filter: ``turn`` (4,) and ``bias`` (3,) go on, ``spin`` (3,) is what is left of the reading."""
+    moved, up = np.empty(3), np.empty(3)
+    _seen_from(turn, meant, moved)
+    _seen_from(turn, np.array([0.0, 0.0, 1.0]), up)
+    felt = acceleration - moved
+    wrong = np.cross(felt / max(np.sqrt(np.sum(felt**2)), 1e-6), up)
+    bias -= SLOW**2 / 4 * wrong * seconds
+    spin[:] = gyro - bias
+    step, half = np.empty(4), 0.5 * seconds * (spin + SLOW * wrong)
+    angle = np.sqrt(np.sum(half**2))
+    step[0] = np.cos(angle)
+    step[1:] = half * (np.sin(angle) / angle if angle > 1e-12 else 1.0)
+    out = np.empty(4)
+    _product(turn, step, 1.0, out)
+    turn[:] = out / np.sqrt(np.sum(out**2))

@@ -199,7 +199,7 @@ def _bent(axes: Positions, low: Array, high: Array, knee: int) -> Array:
     return np.clip(start, low, high)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _turned(axis: Any, angle: float, out: Any) -> None:
     """Rodrigues' matrix."""
     x, y, z = axis
@@ -210,7 +210,7 @@ def _turned(axis: Any, angle: float, out: Any) -> None:
     out[2, 0], out[2, 1], out[2, 2] = z * x * d - y * s, z * y * d + x * s, c + z * z * d
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _forward(q: Any, offsets: Any, axes: Any, anchors: Any, world: Any, turn: Any, end: Any) -> None:
     """Anchors (k, 3) and axes (k, 3) of the hinges, and the place (3,) and turn (3, 3) of the end."""
     own = np.empty((3, 3))
@@ -225,7 +225,7 @@ def _forward(q: Any, offsets: Any, axes: Any, anchors: Any, world: Any, turn: An
     end += turn @ offsets[len(q)]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _rotation_vector(m: Any, out: Any) -> None:
     """The rotation vector of a matrix (3, 3), of less than half a turn."""
     out[0], out[1], out[2] = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
@@ -234,7 +234,7 @@ def _rotation_vector(m: Any, out: Any) -> None:
     out *= 0.5 if size < 1e-12 else angle / size
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _solve(places: Any, turns: Any, angles: Any, offsets: Any, axes: Any, low: Any, high: Any) -> Any:
     frames, k = angles.shape
     away = np.empty(frames)

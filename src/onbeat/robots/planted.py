@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from onbeat._shapes import Array, Positions, Rotations
+from onbeat._shapes import Array, Positions, Rotations, frozen
 from onbeat.motion import rotations as rot
 from onbeat.motion.motion import Motion
 from onbeat.robots.contacts import Danced
@@ -38,9 +40,36 @@ APART = (0.9, 1.4)
 """How far apart the feet are planted: the dance's own median, within these parts of the hips' width."""
 TOES_OUT = 0.2
 """Radians by which planted feet turn out at most."""
+FORWARD = frozen(rot.yaw(np.pi / 2))
+"""From facing +X, as robots' models do, to +Y, as dances begin."""
 
 
-def planted(motion: Motion, robot: Robot) -> Danced:
+@dataclass(frozen=True)
+class Stance:
+    """Where feet are planted about the origin: facing +Y, so many times the hips' width apart, turned out by radians.
+
+    Examples
+    --------
+    >>> from onbeat.robots.model import robot_named
+    >>> places, _ = Stance().feet(Legs.of(robot_named("g1")))
+    >>> bool(places[0, 0] < 0 < places[1, 0]), places[:, 1].round(2).tolist()
+    (True, [-0.03, -0.03])
+    """
+
+    apart: float = 1.2
+    out: float = 0.1
+
+    def own_feet(self, legs: Legs) -> tuple[Positions, Rotations]:
+        """Places (2, 3) and turns (2, 4) of the left and right foot, facing +X."""
+        return feet_below(legs, self.apart * hips_apart(legs), self.out)
+
+    def feet(self, legs: Legs) -> tuple[Positions, Rotations]:
+        """Places (2, 3) and turns (2, 4) of the left and right foot, facing +Y."""
+        places, turns = self.own_feet(legs)
+        return rot.rotate(FORWARD, places), rot.multiply(FORWARD, turns)
+
+
+def planted(motion: Motion, robot: Robot, stance: Stance | None = None) -> Danced:
     """The dance with both feet flat on the floor at fixed places, and as far as the legs reach the hips as they were.
 
     Of the root's path its travelling and turning (slower than :data:`DRIFT`) is left out; what is left of it is bent
@@ -50,6 +79,7 @@ def planted(motion: Motion, robot: Robot) -> Danced:
     ----------
     motion : of the robot, on whatever legs.
     robot : the model.
+    stance : where the feet are; without it as the dance has them on the whole, where it began.
 
     Raises
     ------
@@ -57,7 +87,7 @@ def planted(motion: Motion, robot: Robot) -> Danced:
         If the motion is not the robot's, or the robot has not two legs of six hinges.
     """
     legs, qpos, fps = Legs.of(robot).within(GUARD), configurations(robot, motion), motion.fps
-    places, turns = _planted_feet(legs, qpos)
+    places, turns = _planted_feet(legs, qpos) if stance is None else stance.own_feet(legs)
     wanted = qpos.copy()
     yaw, tilt = leaning(qpos[:, 3:7], fps)
     twist = gentle(bounded(yaw - _drift(yaw, fps), TWIST), fps, Bounds(acceleration=SPIN))
@@ -72,7 +102,8 @@ def planted(motion: Motion, robot: Robot) -> Danced:
     away = centres_of_mass(robot, first)[:, :2].mean(axis=0) - wanted[:, :2].mean(axis=0)
     wanted[:, :2] -= away
     ease[:, :2] -= away
-    done = _where_it_began(reachable(legs, wanted, ease, places, turns, fps), qpos, yaw)
+    done = reachable(legs, wanted, ease, places, turns, fps)
+    done = _where_it_began(done, qpos, yaw) if stance is None else _facing_forward(done)
     return Danced(motion_of(robot, done, fps, motion.name), np.ones((len(qpos), 2), np.bool_))
 
 
@@ -83,6 +114,13 @@ def _where_it_began(done: Array, qpos: Array, yaw: Array) -> Array:
     out[:, :3] = rot.rotate(turn, done[:, :3])
     out[:, :2] += np.median(qpos[:, :2], axis=0)
     out[:, 3:7] = rot.multiply(turn, done[:, 3:7])
+    return out
+
+
+def _facing_forward(done: Array) -> Array:
+    out = done.copy()
+    out[:, :3] = rot.rotate(FORWARD, done[:, :3])
+    out[:, 3:7] = rot.multiply(FORWARD, done[:, 3:7])
     return out
 
 

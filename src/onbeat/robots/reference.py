@@ -72,7 +72,7 @@ def reference(robot: Robot, motion: Motion, rate: float, settling: float) -> Ref
     still = round(settling * rate)
     qpos = np.concatenate((np.repeat(path[:1], still, axis=0), path))
     qvel, qacc = (np.concatenate((np.zeros((still, part.shape[1])), part)) for part in speeds)
-    return _dynamics(robot, qpos, qvel, qacc)
+    return dynamics(robot, qpos, qvel, qacc)
 
 
 def resampled(qpos: Array, fps: float, rate: float) -> Array:
@@ -92,7 +92,8 @@ def resampled(qpos: Array, fps: float, rate: float) -> Array:
     return np.hstack((path[:, :3], rot.normalise(path[:, 3:7]), path[:, 7:]))
 
 
-def _dynamics(robot: Robot, qpos: Array, qvel: Array, qacc: Array) -> Reference:
+def dynamics(robot: Robot, qpos: Array, qvel: Array, qacc: Array) -> Reference:
+    """The reference of configurations (T, 7 + n), and their velocities and accelerations (T, 6 + n), at its ticks."""
     mujoco, model = engine(), robot.model
     data, needed = mujoco.MjData(model), np.zeros(model.nv)
     feet = [model.body(robot.feet[side].link).id for side in SIDES]

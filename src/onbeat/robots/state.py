@@ -108,14 +108,14 @@ def derivatives(robot: Robot, qpos: Array, fps: float) -> Derivatives:
     times = np.arange(frames) / fps
     spline = make_interp_spline(times, path, k=min(DEGREE, frames - 1))
     first, second = spline(times, 1), spline(times, 2)
-    turning, quickening = _angular(path[:, 3:7], first[:, 3:7], second[:, 3:7])
+    turning, quickening = angular(path[:, 3:7], first[:, 3:7], second[:, 3:7])
     return Derivatives(
         frozen(np.hstack((first[:, :3], turning, first[:, 7:]))),
         frozen(np.hstack((second[:, :3], quickening, second[:, 7:]))),
     )
 
 
-def _angular(q: Array, first: Array, second: Array) -> tuple[Array, Array]:
+def angular(q: Array, first: Array, second: Array) -> tuple[Array, Array]:
     """Angular velocity and acceleration (F, 3) in the turning frame, of quaternions and their derivatives (F, 4)."""
     turning = 2 * rot.multiply(rot.inverse(q), first)[:, 1:]
     slack = np.sum(q * first, axis=1, keepdims=True)

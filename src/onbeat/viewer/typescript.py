@@ -8,7 +8,10 @@ from __future__ import annotations
 import inspect
 import sys
 import types
-from typing import Any, get_args, get_origin, get_type_hints
+from collections.abc import Sequence
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+import msgspec
 
 from onbeat.viewer import contract
 
@@ -27,22 +30,41 @@ def typescript_type(hint: Any) -> str:
         return _PLAIN[hint]
     if get_origin(hint) is list:
         return f"{typescript_type(get_args(hint)[0])}[]"
+    if get_origin(hint) is Literal:
+        return " | ".join(f'"{word}"' for word in get_args(hint))
     if isinstance(hint, types.UnionType):
         return " | ".join(typescript_type(part) for part in get_args(hint))
     return hint.__name__
 
 
-def declarations() -> str:
-    """All classes of the contract as TypeScript interfaces."""
-    parts = [
-        "// Written by `python -m onbeat.viewer.typescript` from contract.py. Do not edit.",
-        f"export const VERSION = {contract.VERSION};",
-    ]
-    for struct in contract.STRUCTS:
-        fields = [f"  {name}: {typescript_type(hint)};" for name, hint in get_type_hints(struct).items()]
-        first_line = (inspect.getdoc(struct) or "").splitlines()[0]
-        parts.append("\n".join([f"/** {first_line} */", f"export interface {struct.__name__} {{", *fields, "}"]))
-    return "\n\n".join(parts) + "\n"
+def declarations(
+    structs: Sequence[type[msgspec.Struct]] = contract.STRUCTS,
+    version: int = contract.VERSION,
+    command: str = "python -m onbeat.viewer.typescript",
+    sources: str = "contract.py",
+) -> str:
+    """Classes as TypeScript interfaces, parts before the whole; without arguments those of the contract.
+
+    A tag by which JSON tells classes apart is a field too. ``command`` and ``sources`` are named at the top.
+    """
+    return (
+        "\n\n".join(
+            [
+                f"// Written by `{command}` from {sources}. Do not edit.",
+                f"export const VERSION = {version};",
+                *(_interface(struct) for struct in structs),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _interface(struct: type[msgspec.Struct]) -> str:
+    config = struct.__struct_config__
+    tag = [f'  {config.tag_field}: "{config.tag}";'] if config.tag is not None else []
+    fields = [f"  {name}: {typescript_type(hint)};" for name, hint in get_type_hints(struct).items()]
+    first_line = (inspect.getdoc(struct) or "").splitlines()[0]
+    return "\n".join([f"/** {first_line} */", f"export interface {struct.__name__} {{", *tag, *fields, "}"])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,155 @@
+"""One live show: a session set up, run with its mouths, kept if wanted, and told about."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import time
+from collections.abc import Callable, Generator, Sequence
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+import msgspec
+
+from onbeat.cli.live_cast import Settings, cast_of
+from onbeat.cli.live_flags import BodyFlags, HearFlags, SendFlags
+from onbeat.cli.live_mouths import listening, mouths_of
+from onbeat.cli.live_screen import Screen, summary, words
+from onbeat.cli.live_sound import Played, source_of
+from onbeat.cli.progress import Stages
+from onbeat.live.cast import Cast
+from onbeat.live.hearing import Hearing, Inbox
+from onbeat.live.outputs import Outputs
+from onbeat.live.protocol import Event
+from onbeat.live.pulse import Pulse
+from onbeat.live.record import Digest, Recording, Replay
+from onbeat.live.recorded import Recorded
+from onbeat.live.run import Runner, Ticks
+from onbeat.live.session import Session, warm_up
+
+
+class Show:
+    """What all shows have in common.
+
+    Parameters
+    ----------
+    send : where it goes.
+    speed_up : how much faster time goes.
+    seconds : when it ends at the latest.
+    quiet : whether nothing is printed but at the end, by the caller.
+    """
+
+    def __init__(self, send: SendFlags, speed_up: float, seconds: float | None, quiet: bool) -> None:
+        self._send, self._speed_up, self._quiet = send, speed_up, quiet
+        self._seconds = float("inf") if seconds is None else seconds
+        begun = time.perf_counter()
+        self._clock: Callable[[], float] = (
+            time.perf_counter if speed_up == 1 else lambda: begun + (time.perf_counter() - begun) * speed_up
+        )
+
+    def live(self, motions: tuple[Path, ...], hear: HearFlags, body: BodyFlags, record: Path | None) -> dict[str, Any]:
+        """Hear, and dance."""
+        settings = Settings.of(motions, hear, body)
+        recording = None if record is None else Recording(record, msgspec.to_builtins(settings))
+        with _kept(recording):
+            cast = self._cast(settings)
+            source, inbox = source_of(hear, self._clock), Inbox()
+            with contextlib.closing(source.listener):
+                ticks = Hearing(source.listener, inbox)
+                return self._run(cast, settings, source.played, ticks, inbox, recording, hear.midi_in)
+
+    def again(self, folder: Path) -> dict[str, Any]:
+        """Dance a recording again, and say whether it is the same."""
+        replay = Replay(folder)
+        settings = Settings.read(replay.kept.settings, folder)
+        digest, inbox = Digest(), Inbox()
+        ticks = Recorded(replay, self._clock)
+        told = self._run(self._cast(settings), settings, Played(folder.name), ticks, inbox, digest, None)
+        whole = told["ticks"] == len(replay)
+        told["same"] = digest.hexdigest() == replay.kept.poses if whole else None
+        if not self._quiet:
+            same = "the same to the bit" if told["same"] else "other poses than then: another onbeat, or machine?"
+            Screen.say(f"{told['poses']} poses, {same if whole else 'not danced to its end'}")
+        return told
+
+    def _cast(self, settings: Settings) -> Cast:
+        with Stages() as stages:
+            return cast_of(settings, stages)
+
+    def _run(
+        self,
+        cast: Cast,
+        settings: Settings,
+        played: Played,
+        ticks: Ticks,
+        inbox: Inbox,
+        keeper: Recording | Digest | None,
+        midi_in: str | None,
+    ) -> dict[str, Any]:
+        session = Session(Pulse(*settings.tempi), cast.conductor, cast.dancer, settings.latency, cast.tried)
+        mouths = mouths_of(self._send, cast, played, session, inbox)
+        outputs = Outputs(mouths.all)
+        counted = _Counted(keeper)
+        runner = Runner(session, ticks, outputs, counted, self._clock, lambda s: time.sleep(s / self._speed_up))
+        screen = Screen(silent=self._quiet or self._send.lines is not None)
+
+        def each(events: Sequence[Event]) -> None:
+            screen.each(events)
+            if mouths.ended:
+                runner.stop()
+
+        mouths.open(outputs)
+        try:
+            screen.begin(cast.who.name, played.name, mouths)
+            with listening(self._send, midi_in, inbox, runner), _ended_by_ctrl_c(runner):
+                warm_up(session)
+                ticks.start()
+                ran = runner.run(self._seconds, each)
+        finally:
+            screen.end()
+            outputs.close()
+        told = summary(ran, outputs.passed(), counted.poses, self._speed_up)
+        if not self._quiet:
+            Screen.say(words(told))
+        return told
+
+
+class _Counted:
+    """Hands ticks on to who keeps them, and counts poses."""
+
+    def __init__(self, keeper: Recording | Digest | None) -> None:
+        self._keeper, self.poses = keeper, 0
+
+    def add(self, samples: Any, told: Any, poses: Any) -> None:
+        self.poses += len(poses)
+        if self._keeper is not None:
+            self._keeper.add(samples, told, poses)
+
+
+@contextlib.contextmanager
+def _ended_by_ctrl_c(runner: Runner) -> Generator[None]:
+    """Ctrl-C is how a show ends: after the present tick. A second one does not wait for that."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        runner.stop()
+        signal.signal(signal.SIGINT, before)
+
+    before = signal.signal(signal.SIGINT, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@contextlib.contextmanager
+def _kept(recording: Recording | None) -> Generator[None]:
+    """A recording gets its name when all went well, and is kept under its part's name else."""
+    try:
+        yield
+    except BaseException:
+        if recording is not None:
+            recording.drop()
+        raise
+    if recording is not None:
+        Screen.say(f"kept in {recording.close()}")
