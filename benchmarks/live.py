@@ -1,6 +1,6 @@
 """How well a live session follows, what it keeps to, what it costs, and what it survives.
 
-Usage: ``python benchmarks/live.py [--only follow,endure,faults,pace] [--minutes 30] [--cast improvised,choreography,g1]``.
+Usage: ``python benchmarks/live.py [--only follow,endure,faults,pace] [--minutes 30] [--cast improvised,g1]``.
 What it hears beside other trackers is in ``live_beats.py``.
 
 *follow*: songs by the embedded band whose beats are known, at a steady tempo, with a ramp of ± 20 % over 20 s, and with
@@ -21,9 +21,9 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
-from live_sessions import TICK, Came, cast_named, run, session_named
-from made_songs import RATE, made_song, ramp, steady, steps
 
+from live_sessions import Came, run, session_named
+from made_songs import RATE, made_song, ramp, steady, steps
 from onbeat.live.protocol import Command
 from onbeat.live.session import Session
 from onbeat.motion.features import hand_features
@@ -110,7 +110,9 @@ def follow(names: Sequence[str]) -> None:
             lock = locked_at(said, beats)
             inside = (keyed > lock) & (keyed < beats[-1])
             late = np.abs(keyed[inside][:, None] - beats[None]).min(axis=1)
-            line = f"{name:14}{song:18}{lock:8.2f}{share_near(keyed[inside], beats):10.3f} ({chance(keyed[inside], beats, rng):.2f})"
+            keyed = keyed[inside]
+            line = f"{name:14}{song:18}{lock:8.2f}"
+            line += f"{share_near(keyed, beats):10.3f} ({chance(keyed, beats, rng):.2f})"
             line += f"{1000 * np.median(late):11.1f}"
             if came.poses[0].angles.size == 0:
                 stops = stops_of(came, session)
@@ -145,14 +147,15 @@ def endure(names: Sequence[str], minutes: float) -> None:
     sound = endured(minutes, np.random.default_rng(1))
     print(f"\nendure: {minutes:g} min of songs, tempo changes, silence, noise; a change asked for every 18 s")
     print(
-        f"{'cast':14}{'past range':>12}{'speed':>8}{'accel.':>8}{'jump':>8}{'CPU':>7}{'slowest ms':>12}{'MB 3 min / end':>18}"
+        f"{'cast':14}{'past range':>12}{'speed':>8}{'accel.':>8}{'jump':>8}{'CPU':>7}{'slowest ms':>12}"
+        f"{'MB 3 min / end':>18}"
     )
     for name in names:
         session = session_named(name)
         held, slowest, begun = [], 0.0, time.process_time()
         last = time.perf_counter()
 
-        def each(k: int) -> None:
+        def each(k: int, held: list[float] = held) -> None:
             nonlocal slowest, last
             now = time.perf_counter()
             slowest = max(slowest, now - last) if k > 1000 else 0.0

@@ -7,9 +7,9 @@ import threading
 import time
 
 import numpy as np
+
 from live_sessions import TICK, Checked, cast_named
 from made_songs import RATE, made_song, steady
-
 from onbeat.live.ears import Ears
 from onbeat.live.protocol import Status
 from onbeat.live.pulse import Pulse

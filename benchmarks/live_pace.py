@@ -10,7 +10,6 @@ import time
 from collections.abc import Sequence
 
 from live_sessions import cast_named
-
 from onbeat.examples.song import demo_song
 from onbeat.live.array_source import ArraySource
 from onbeat.live.hearing import Hearing, Inbox

@@ -72,12 +72,13 @@ def run(
         step = session.step(sound[k * TICK : (k + 1) * TICK], told)
         if step.poses:
             came.checked.look(session)
+        if keep and step.poses:
             start = session.follower.body.knots.start
             at = np.array([start, start + 0.05])
             came.clock += list(zip(at.tolist(), session.follower.own(at).tolist(), strict=True))
-        if keep:
             came.poses += step.poses
-        came.statuses += [event for event in step.events if isinstance(event, Status)]
+        if keep:
+            came.statuses += [event for event in step.events if isinstance(event, Status)]
         came.notes += [event for event in step.events if isinstance(event, Note)]
         if each is not None:
             each(k)

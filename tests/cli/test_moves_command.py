@@ -55,6 +55,31 @@ def test_json_has_everything(folder, tmp_path, monkeypatch, capsys):
     assert document["clips"][0]["performer"] is None
 
 
+def test_a_library_is_checked_changed_and_merged(folder, tmp_path, monkeypatch, capsys):
+    for name in "ab":
+        assert run(monkeypatch, "build", folder / f"{name}.npz", "-o", tmp_path / name, "--no-mirror") == 0
+    capsys.readouterr()
+    assert run(monkeypatch, "merge", tmp_path / "a", tmp_path / "b", "-o", tmp_path / "ab") == 0
+    assert capsys.readouterr().out.startswith("2 clips, 10 s of recordings")
+    assert run(monkeypatch, "verify", tmp_path / "ab") == 0
+    assert capsys.readouterr().out == f"{tmp_path / 'ab'}: all is as it was built\n"
+    assert run(monkeypatch, "remove", tmp_path / "ab", "b") == 0
+    assert capsys.readouterr().out.startswith("1 clip, 5 s of recordings")
+    (shard,) = (tmp_path / "ab").glob("shards/clips-*")
+    shard.write_bytes(b"?" + shard.read_bytes()[1:])
+    assert run(monkeypatch, "verify", tmp_path / "ab") == 1
+    assert "are not those it had" in capsys.readouterr().out
+
+
+def test_problems_and_what_a_table_tells_are_shown(folder, tmp_path, monkeypatch, capsys):
+    (tmp_path / "about.csv").write_text("file,performer\na.npz,anna\n")
+    words = ("--about", tmp_path / "about.csv", "--search", "exact", "--no-mirror")
+    assert run(monkeypatch, "build", folder, "-o", tmp_path / "lib", *words) == 0
+    assert "anna" in capsys.readouterr().out
+    assert run(monkeypatch, "show", tmp_path / "lib", "--problems") == 0
+    assert capsys.readouterr().out.startswith("broken.bvh: ")
+
+
 def test_an_assumed_rate_is_one_line(tmp_path, monkeypatch, capsys):
     (tmp_path / "t.asf").write_text(ASF)
     (tmp_path / "t.amc").write_text(AMC)
@@ -70,7 +95,12 @@ def test_an_assumed_rate_is_one_line(tmp_path, monkeypatch, capsys):
         (("build", "none", "-o", "lib"), "no file or folder none"),
         (("build", ".", "-o", "lib"), "no motion files in ."),
         (("build", ".", "-o", "lib", "--fps", "0"), "0 frames a second cannot be"),
+        (("build", ".", "-o", "lib", "--workers", "0"), "0 workers cannot be"),
+        (("build", ".", "-o", "lib", "--scheduler", "here"), "'here' is no address of a scheduler"),
         (("show", "."), "no library in ."),
+        (("verify", "."), "no library in ."),
+        (("remove", ".", "a"), "no library in ."),
+        (("merge", ".", ".", "-o", "lib"), "no library in ."),
     ],
 )
 def test_mistakes_are_told_in_one_line(tmp_path, monkeypatch, capsys, words, told):

@@ -15,6 +15,7 @@ from onbeat.motion import Motion
 from onbeat.motion.retarget import retarget
 from onbeat.moves.build import build_library
 from persons import person, swinging
+from stored_libraries import kept
 
 SMALL, TALL = person(0.9), person(1.1, arms_down=True)
 # name, content (None takes the file away): other motions, of two bodies, one too short, one broken
@@ -43,18 +44,13 @@ def edit(folder: Path, name: str, kind: int | str | None) -> None:
         write_motion(content(kind), file)
 
 
-def stored(folder: Path) -> dict[str, bytes]:
-    files = (p for p in folder.rglob("*") if p.is_file() and p.name != ".lock")
-    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in files}
-
-
-def built(source: Path, library: Path, mirror: bool) -> dict[str, bytes] | str:
-    """The bytes of a library, or why there is none."""
+def built(source: Path, library: Path, mirror: bool) -> dict[str, object] | str:
+    """What a library is, or why there is none."""
     try:
         build_library([source], library, mirror=mirror)
     except LibraryError as error:
         return str(error)
-    return stored(library)
+    return kept(library)
 
 
 def test_the_material_of_the_law_has_joins(tmp_path):

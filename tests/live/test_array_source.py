@@ -58,7 +58,7 @@ def test_after_a_long_pause_the_song_has_waited_and_says_so_once():
     rest = played(source, clock, [0.01] * 152)  # two seconds are made up for; then it goes on at its pace
     assert len(first) + len(rest) == pytest.approx((2.0 + 1.52) * RATE, abs=1)
     assert len(played(source, clock, [60.0])) > 0
-    assert source.notes() == ["nobody listened for a while: the song has waited 58.0 s"]
+    assert source.notes() == ["this machine was too busy for a moment: the song has waited 58.0 s"]
     assert np.array_equal(np.concatenate((first, rest)), samples[: len(first) + len(rest)])
 
 

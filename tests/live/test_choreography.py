@@ -92,6 +92,12 @@ def test_a_dance_without_beats_is_refused(beats):
         Choreography("none", 0, 10.0, np.array(beats))
 
 
+@pytest.mark.parametrize("period", [0.01, 7.0])
+def test_beats_that_are_none_of_a_dance_are_refused(period):
+    with pytest.raises(PlanError, match="apart"):
+        Choreography("odd", 0, 30.0, np.arange(0.5, 30, period))
+
+
 def test_a_dance_shorter_than_a_bar_is_danced_too():
     short = Choreography("short", 0, 1.6, np.array([0.2, 0.7, 1.2]))
     pieces, beats, _ = danced(Repertoire([short]), 0.5, 12)

@@ -98,6 +98,14 @@ def test_when_the_tempo_changes_the_same_seconds_stay_on_the_same_beats():
     assert all(after[beat] == second for beat, second in before.items() if beat in after)
 
 
+def test_a_dance_called_resting_is_a_dance():
+    line = Books()
+    lead = Conductor(line, Repertoire([Choreography("resting", 0, 30.0, np.arange(0.7, 30, 0.5))]), Rest(2, 12.0))
+    go(lead, 0, 12)
+    assert not lead.resting
+    assert len(line.moves) < 20
+
+
 def test_a_hundred_changes_leave_the_timeline_rising():
     lead, line = conductor()
     rng = np.random.default_rng(0)

@@ -49,6 +49,34 @@ def test_nothing_of_its_name_is_written_over_and_nothing_is_left_of_one_that_was
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one"]
 
 
+def test_one_that_was_killed_can_be_danced_again(tmp_path):
+    recording = Recording(tmp_path / "one", {})
+    for k in range(5):
+        recording.add(np.full(441, k, np.float32), NOTHING_TOLD, [POSE])
+    replay = Replay(tmp_path / "one.part")
+    assert len(replay) == len(list(replay.ticks())) == 5
+    assert replay.kept.poses == ""
+    recording.drop()
+
+
+def test_on_a_full_disk_what_was_kept_is_kept_and_the_session_goes_on(tmp_path, monkeypatch):
+    recording = Recording(tmp_path / "one", {})
+    write = Recording._write
+
+    def full(self, name, data):
+        if self.ticks == 3 and name == "ticks.bin":
+            raise OSError(28, "No space left on device")
+        write(self, name, data)
+
+    monkeypatch.setattr(Recording, "_write", full)
+    for _ in range(6):
+        recording.add(np.zeros(441, np.float32), NOTHING_TOLD, [POSE])
+    assert "No space left" in recording.failed
+    recording.close()
+    replay = Replay(tmp_path / "one")
+    assert [len(sound) for sound, _ in replay.ticks()] == [441] * 3
+
+
 @pytest.mark.parametrize(
     ("name", "data"),
     [
@@ -78,12 +106,12 @@ def test_its_ticks_come_when_they_are_due(tmp_path):
     ticks.start()
     assert ticks.tick() is not None
     assert ticks.tick() is None
-    assert not ticks.lost
+    assert not ticks.given
     now[0] = 0.021
     assert ticks.tick() is not None
     assert ticks.told().commands == (Command("next"),)
     assert ticks.tick() is None
-    assert ticks.lost
+    assert ticks.given
     now[0] = 1.0
     while not ticks.over:
         ticks.tick()

@@ -39,15 +39,15 @@ class Made:
 
     def __init__(self, machine: Machine, there, seconds: float = 3.0) -> None:
         self._machine, self._there, self._seconds = machine, there, seconds
-        self.given, self.lost, self.said = 0, False, []
+        self.count, self.lost, self.said = 0, False, []
 
     def start(self) -> None: ...
 
     def tick(self):
         elapsed = self._machine.now - 100.0
-        if self.given >= self._there(elapsed):
+        if self.count >= self._there(elapsed):
             return None
-        self.given += 1
+        self.count += 1
         return np.zeros(441, np.float32)
 
     def told(self) -> Told:
@@ -56,6 +56,10 @@ class Made:
     def notes(self) -> list[str]:
         out, self.said = self.said, []
         return out
+
+    @property
+    def given(self) -> bool:
+        return False
 
     @property
     def over(self) -> bool:
@@ -113,6 +117,23 @@ def test_time_goes_on_without_sound():
 def test_a_source_that_is_lost_is_not_waited_for():
     session = run(lambda elapsed: 0, 1.0, lost=True)
     assert session.ticks == pytest.approx(100, abs=2)
+
+
+def test_ticks_of_a_recording_that_had_no_sound_are_ticks_all_the_same():
+    machine, session = Machine(), Counting()
+
+    class Silent(Made):
+        def tick(self):
+            self.due = super().tick() is not None
+            return
+
+        @property
+        def given(self) -> bool:
+            return self.due
+
+    Runner(session, Silent(machine, lambda e: e * 100, 1.0), Outputs([]), None, machine.clock, machine.sleep).run()
+    assert session.ticks == pytest.approx(100, abs=2)
+    assert not any(session.heard)
 
 
 def test_it_ends_when_it_is_told_to():

@@ -1,4 +1,6 @@
+import pickle
 import shutil
+from functools import partial
 
 import numpy as np
 import pytest
@@ -7,17 +9,16 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion.retarget import retarget
-from onbeat.moves import manifest
-from onbeat.moves.build import Old, build_library
+from onbeat.moves import build, joining, making, publish
+from onbeat.moves.build import assemble, build_library
+from onbeat.moves.generations import Options
+from onbeat.moves.groups import lots_of
 from onbeat.moves.library import SHORTEST
+from onbeat.moves.placing import batches
+from onbeat.moves.recordings import Recording, find_recordings
+from onbeat.moves.store import open_library
 from persons import BVH, along_local_axes, person, swinging
-
-
-def files(folder):
-    """All that a library's folder holds, by name; the lock holds a process number."""
-    return {
-        p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file() and p.name != ".lock"
-    }
+from stored_libraries import kept, rows
 
 
 @pytest.mark.parametrize("count", [1, 3, 17])
@@ -168,7 +169,7 @@ def test_only_what_changed_is_made_again_and_nothing_else_differs(clips_folder, 
         """Build again where the old library is, and afresh; both must be the same to the last byte."""
         build_library([clips_folder], lib)
         build_library([clips_folder], tmp_path / "fresh")
-        assert files(lib) == files(tmp_path / "fresh")
+        assert kept(lib) == kept(tmp_path / "fresh")
         shutil.rmtree(tmp_path / "fresh")
 
     write_motion(dances[3], clips_folder / "0.npz")  # before all others
@@ -186,25 +187,112 @@ def test_only_what_changed_is_made_again_and_nothing_else_differs(clips_folder, 
     changed()
 
 
-def test_unchanged_clips_are_neither_placed_nor_joined_again(clips_folder, dances, tmp_path, monkeypatch):
-    from onbeat.moves import build
-    from onbeat.moves.clips import Stage
+@pytest.fixture
+def done(monkeypatch):
+    """Notes each task that is really done: what and on what."""
+    tasks: list[tuple[str, int]] = []
 
-    lib = tmp_path / "lib"
-    build_library([clips_folder], lib)
+    def noting(module, name):
+        work = getattr(module, name)
+
+        def noted(task, *rest):
+            count = len(task) if name == "look" else len(task.keys) if name == "search_blocks" else 1
+            tasks.append((name, count))
+            return work(task, *rest)
+
+        monkeypatch.setattr(module, name, noted)
+
+    noting(making, "look")
+    noting(making, "place")
+    noting(publish, "search_blocks")
+    return tasks
+
+
+def counted(tasks):
+    found = {}
+    while tasks:
+        name, count = tasks.pop()
+        found[name] = found.get(name, 0) + count
+    return found
+
+
+def test_unchanged_clips_are_neither_read_nor_placed_again_and_only_their_groups_are_searched(
+    clips_folder, dances, tmp_path, done, monkeypatch
+):
+    monkeypatch.setattr(joining, "lots_of", partial(lots_of, size=300))  # a recording and its mirror image in each
+    (clips_folder / "broken.bvh").write_text("x")
+    build_library([clips_folder], tmp_path / "lib")
+    assert counted(done) == {"look": 4, "place": 3, "search_blocks": 6}
+    build_library([clips_folder], tmp_path / "lib")
+    assert counted(done) == {}
     write_motion(dances[3], clips_folder / "bb.npz")
-    placed, searched = [], []
-    clips, pairs = Stage.clips, build.clip_pairs
-    monkeypatch.setattr(Stage, "clips", lambda s, read, n, mirror: placed.append(n) or clips(s, read, n, mirror=mirror))
+    build_library([clips_folder], tmp_path / "lib")
+    assert counted(done) == {"look": 1, "place": 1, "search_blocks": 4}
+    (clips_folder / "a.npz").rename(clips_folder / "zz.npz")
+    build_library([clips_folder], tmp_path / "lib")
+    assert counted(done) == {}
+    build_library([clips_folder], tmp_path / "lib", mirror=False)
+    assert list(counted(done)) == ["search_blocks"]
 
-    def counting(poses, limit, wanted, **options):
-        searched.extend((a, b) for a in range(8) for b in range(a, 8) if wanted(a, b))
-        return pairs(poses, limit, wanted, **options)
 
-    monkeypatch.setattr(build, "clip_pairs", counting)
-    build_library([clips_folder], lib)
-    assert placed == [2]
-    assert searched == [(a, b) for a in range(8) for b in range(a, 8) if {a, b} & {4, 5}]
+@pytest.mark.parametrize("when", ["reading", "placing", "comparing", "finding", "joining"])
+def test_a_build_that_is_stopped_goes_on_where_it_was(clips_folder, tmp_path, done, when, monkeypatch):
+    monkeypatch.setattr(joining, "lots_of", partial(lots_of, size=300))
+    monkeypatch.setattr(joining, "RUN", 1)
+    monkeypatch.setattr(making, "batches", partial(batches, size=1))
+
+    def stop(what, share):
+        if (what.startswith(when) and what != when and share > 0.06) or what == when == "joining":
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        build_library([clips_folder], tmp_path / "lib", step=stop, workers=1)
+    with pytest.raises(LibraryError, match="was not built to the end"):
+        open_library(tmp_path / "lib")
+    counted(done)
+    had = [rows(tmp_path / "lib", f"SELECT count(*) FROM {table}")[0][0] for table in ("readings", "clips", "blocks")]
+    build_library([clips_folder], tmp_path / "lib")
+    again = counted(done)
+    assert again.get("look", 0) == 3 - had[0]
+    assert again.get("place", 0) == 3 - had[1] // 2
+    assert again.get("search_blocks", 0) == 6 - had[2]
+    assert sum(had) > 0
+    build_library([clips_folder], tmp_path / "fresh")
+    assert kept(tmp_path / "lib") == kept(tmp_path / "fresh")
+
+
+def test_a_file_that_changes_while_it_is_read_is_told(clips_folder, dances, tmp_path, monkeypatch):
+    read = Recording.has_changed
+
+    def changing(recording):
+        if recording.name == "b":
+            write_motion(dances[7], recording.path)
+        return read(recording)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Recording, "has_changed", changing)
+        library = build_library([clips_folder], tmp_path / "lib")
+    assert library.problems == ("b.npz: changed while it was read; build again when nobody writes to it",)
+    assert [clip.name for clip in library.clips] == ["a", "a~mirror", "c", "c~mirror"]
+    library = build_library([clips_folder], tmp_path / "lib")
+    assert library.problems == ()
+    assert len(library.clips) == 6
+
+
+def test_a_clip_longer_than_a_group_has_the_joins_of_the_whole(dances, tmp_path, monkeypatch):
+    motion = dances[0]
+    many = motion.replace(
+        rotations=np.concatenate([d.rotations for d in dances[:4]]),
+        root_positions=np.concatenate([d.root_positions for d in dances[:4]]),
+    )
+    write_motion(many, tmp_path / "long.npz")
+    write_motion(dances[6], tmp_path / "short.npz")
+    whole = build_library([tmp_path], tmp_path / "whole", mirror=False).graph
+    monkeypatch.setattr(joining, "lots_of", partial(lots_of, size=100))
+    cut = build_library([tmp_path], tmp_path / "cut", mirror=False).graph
+    assert len(rows(tmp_path / "cut", "SELECT * FROM blocks")) > 20
+    for name in ("indptr", "targets", "costs"):
+        np.testing.assert_array_equal(getattr(whole, name), getattr(cut, name))
 
 
 def test_options_are_part_of_what_is_kept(clips_folder, tmp_path):
@@ -214,23 +302,61 @@ def test_options_are_part_of_what_is_kept(clips_folder, tmp_path):
     assert build_library([clips_folder], lib, mirror=False, fps=60).seconds == pytest.approx(6)
     build_library([clips_folder], lib)
     build_library([clips_folder], tmp_path / "fresh")
-    assert files(lib) == files(tmp_path / "fresh")
+    assert kept(lib) == kept(tmp_path / "fresh")
 
 
-def test_what_other_code_made_is_not_built_upon(clips_folder, tmp_path, monkeypatch):
-    made = []
-    monkeypatch.setattr(Old, "of", lambda folder, fps, of=Old.of: made.append(of(folder, fps)) or made[-1])
+def test_what_other_code_made_is_not_built_upon(clips_folder, tmp_path, done, monkeypatch):
     build_library([clips_folder], tmp_path / "lib")
-    monkeypatch.setattr(manifest, "method_digest", lambda: "other")
+    first = counted(done)
+    for module in (making, build):
+        monkeypatch.setattr(module, "method_digest", lambda: "other")
+    monkeypatch.setattr(making, "reading_method", lambda: "other")
     build_library([clips_folder], tmp_path / "lib")
+    assert counted(done)["place"] == first["place"]
     build_library([clips_folder], tmp_path / "lib")
-    assert [old.found for old in made] == [None, None]
+    assert counted(done) == {}
 
 
-def test_threads_do_not_change_a_byte(clips_folder, tmp_path):
+def test_the_number_of_workers_does_not_change_a_byte(clips_folder, tmp_path):
     build_library([clips_folder], tmp_path / "one", workers=1)
     build_library([clips_folder], tmp_path / "three", workers=3)
-    assert files(tmp_path / "one") == files(tmp_path / "three")
+    assert kept(tmp_path / "one") == kept(tmp_path / "three")
+
+
+def test_tasks_can_be_sent_to_other_machines(clips_folder, tmp_path, monkeypatch):
+    """As an engine of processes does, without starting one."""
+
+    def sent(tasks, work, done, engine=None, progress=None, *, failed=None, parts=None):
+        for task in tasks:
+            there, job, get = pickle.loads(pickle.dumps((task, work, parts and parts.get)))
+            done(task, pickle.loads(pickle.dumps(job(there, *map(get, parts.needs(there)) if parts else ()))))
+
+    build_library([clips_folder], tmp_path / "here")
+    for module in (making, publish):
+        monkeypatch.setattr(module, "run", sent)
+    build_library([clips_folder], tmp_path / "there")
+    assert kept(tmp_path / "here") == kept(tmp_path / "there")
+
+
+def test_in_memory_it_is_the_same_library(clips_folder, tmp_path):
+    stored = build_library([clips_folder], tmp_path / "lib")
+    made = assemble(find_recordings([clips_folder]), Options())
+    assert [clip.name for clip in made.clips] == [clip.name for clip in stored.clips]
+    for one, other in zip(made.clips, stored.clips, strict=True):
+        assert one.motion.rotations.tobytes() == other.motion.rotations.tobytes()
+        assert one.poses.tobytes() == other.poses.tobytes()
+    for name in ("clip_of", "indptr", "targets", "costs"):
+        np.testing.assert_array_equal(getattr(made.graph, name), getattr(stored.graph, name))
+
+
+def test_who_dances_is_told_by_a_table(clips_folder, tmp_path):
+    (tmp_path / "about.csv").write_text("file,performer,genre\n*,anna,\nb.npz,berta,salsa\n")
+    library = build_library([clips_folder], tmp_path / "lib", mirror=False, about=tmp_path / "about.csv")
+    assert [tuple(clip.about) for clip in library.clips] == [
+        ("anna", None, None),
+        ("berta", "salsa", None),
+        ("anna", None, None),
+    ]
 
 
 def test_progress_goes_from_nothing_to_all(clips_folder, tmp_path):
@@ -240,7 +366,7 @@ def test_progress_goes_from_nothing_to_all(clips_folder, tmp_path):
     assert shares == sorted(shares)
     assert shares[0] == 0
     assert shares[-1] == 1
-    assert {what.split()[0] for what, _ in steps} == {"reading", "placing", "finding", "done"}
+    assert {what.split()[0] for what, _ in steps} == {"reading", "placing", "comparing", "finding", "joining", "done"}
 
 
 @pytest.mark.data

@@ -5,19 +5,17 @@ import pytest
 
 from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
-from onbeat.moves import build
 from onbeat.moves.build import build_library
 from onbeat.moves.cache import CacheWarning, build_from, build_or_open, cache_folder
 from onbeat.moves.lock import building
+from onbeat.moves.making import Making
 
 
 @pytest.fixture
 def built(monkeypatch):
     """Notes each library that is really built."""
-    made, of = [], build.Build.of
-    monkeypatch.setattr(
-        build.Build, "of", lambda self, recordings: made.append(len(recordings)) or of(self, recordings)
-    )
+    made, make = [], Making.make
+    monkeypatch.setattr(Making, "make", lambda self: made.append(len(self.recordings)) or make(self))
     return made
 
 
@@ -70,7 +68,7 @@ def test_problems_are_told_from_the_cache_too(clips_folder, tmp_path, built):
 
 def test_a_damaged_library_in_the_cache_is_built_again(clips_folder, tmp_path, built):
     build_or_open(clips_folder, tmp_path / "cache")
-    for array in tmp_path.glob("cache/*/data-*/poses.npy"):
+    for array in tmp_path.glob("cache/*/graph-*/costs.npy"):
         array.unlink()
     assert len(build_or_open(clips_folder, tmp_path / "cache").clips) == 6
     assert built == [3, 3]

@@ -1,5 +1,6 @@
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import threading
@@ -11,8 +12,11 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.moves import store
 from onbeat.moves.build import build_library
+from onbeat.moves.index import create_index
 from onbeat.moves.lock import StorageError, building
-from onbeat.moves.store import open_library
+from onbeat.moves.store import open_library, read_stored
+from onbeat.moves.verify import verify_library
+from stored_libraries import change, kept
 
 
 @pytest.fixture
@@ -21,24 +25,31 @@ def stored(clips_folder, tmp_path):
     return tmp_path / "lib"
 
 
-def data_of(folder):
-    (found,) = folder.glob("data-*")
+def graph_of(folder):
+    (found,) = folder.glob("graph-*")
     return found
 
 
-def test_what_is_opened_is_what_was_built(clips_folder, tmp_path):
-    built, opened = build_library([clips_folder], tmp_path / "lib"), open_library(tmp_path / "lib")
-    for name in ("clip_of", "indptr", "targets", "costs"):
-        a, b = getattr(built.graph, name), getattr(opened.graph, name)
-        assert a.dtype == b.dtype
-        np.testing.assert_array_equal(a, b)
-    for a, b in zip(built.clips, opened.clips, strict=True):
-        assert (a.name, a.source, a.mirrored, a.motion.fps) == (b.name, b.source, b.mirrored, b.motion.fps)
-        assert a.motion.skeleton == b.motion.skeleton
-        for name in ("stops", "intensity", "poses"):
-            np.testing.assert_array_equal(getattr(a, name), getattr(b, name))
-        np.testing.assert_array_equal(a.motion.rotations, b.motion.rotations)
-        np.testing.assert_array_equal(a.motion.root_positions, b.motion.root_positions)
+def test_what_is_opened_is_what_was_placed(dances, tmp_path):
+    write_motion(dances[0], tmp_path / "a.npz")
+    build_library([tmp_path], tmp_path / "lib")
+    original, image = open_library(tmp_path / "lib").clips
+    np.testing.assert_array_equal(original.motion.rotations[:, 1:], dances[0].rotations[:, 1:])
+    assert image.motion.name == "a~mirror"
+    assert image.length == (len(image.motion), image.motion.fps) == (120, 30.0)
+    assert not original.poses.flags.writeable
+
+
+def test_nothing_of_a_clip_is_read_before_it_is_asked_for(stored, monkeypatch):
+    asked = []
+    read = store.DiskShards.read
+    monkeypatch.setattr(store.DiskShards, "read", lambda self, span: asked.append(span) or read(self, span))
+    library = open_library(stored)
+    opening = len(asked)
+    assert (library.seconds, library.clips[3].fps, library.clips[3].name) == (12, 30, "b~mirror")
+    assert len(asked) == opening == 1
+    assert len(library.clips[0].motion) == 120
+    assert len(asked) == 3
 
 
 def test_a_folder_without_a_library_says_how_to_build_one(tmp_path):
@@ -46,36 +57,70 @@ def test_a_folder_without_a_library_says_how_to_build_one(tmp_path):
         open_library(tmp_path)
 
 
+def test_a_library_of_a_former_version_is_to_be_built_again(clips_folder, tmp_path):
+    lib = tmp_path / "lib"
+    (lib / "data-0123").mkdir(parents=True)
+    (lib / "library.json").write_text('{"format": "onbeat library", "version": 2}')
+    with pytest.raises(LibraryError, match="of a former version; build the library again"):
+        open_library(lib)
+    build_library([clips_folder], lib)
+    assert sorted(p.name for p in lib.iterdir()) == [".lock", graph_of(lib).name, "index.sqlite", "shards"]
+
+
 @pytest.mark.parametrize(
-    ("damage", "told"),
+    ("statement", "told"),
     [
-        (lambda text: text.replace(b'"version": 2', b'"version": 1'), "is of version 1, 2 is expected"),
-        (lambda text: text[: len(text) // 2], "is damaged"),
-        (lambda text: b"", "is damaged"),
-        (lambda text: b"\xff\xfe", "is damaged"),
-        (lambda text: b'{"version": 1}', "not the manifest of a library"),
-        (lambda text: text.replace(b'"frames": 120', b'"frames": 121', 1), "is expected; build"),
-        (lambda text: text.replace(b'"frames": 120', b'"frames": "many"', 1), "is damaged"),
-        (lambda text: text.replace(b'"parents": [', b'"parents": [7,', 1), "is damaged"),
+        ("UPDATE library SET version = 4", "is of version 4, 3 is expected; build the library again"),
+        ("CREATE TABLE more (x)", "other tables than expected"),
+        ("DELETE FROM generations", "was not built to the end"),
+        ("UPDATE clips SET poses = poses + 1", "is damaged"),
+        ("UPDATE clips SET frames = -5", "is damaged"),
+        ("UPDATE clips SET joints = 'many'", "is damaged"),
+        ("UPDATE clips SET fps = 0", "is damaged"),
+        ("UPDATE clips SET poses = poses + 1000000000000, size = size + 456000000000000", "are expected; build"),
+        ("UPDATE clips SET offset = offset + 100000000", "are expected; build the library again"),
+        ("UPDATE members SET clip = 77 WHERE position = 2", "is damaged"),
+        ("UPDATE members SET recording = 2 WHERE position = 1", "is damaged"),
+        ("DELETE FROM members WHERE position = 0", "is expected; build the library again"),
+        ("UPDATE generations SET skeleton = '{}'", "skeleton is damaged"),
+        ("UPDATE generations SET graph = '../clips'", "is damaged"),
+        ("UPDATE generations SET options = '7'", "is damaged"),
     ],
 )
-def test_a_damaged_or_unknown_manifest_says_to_build_again(stored, clips_folder, damage, told):
-    path = stored / "library.json"
-    whole = path.read_bytes()
-    damaged = damage(whole.replace(b'"parents":[', b'"parents": ['))
-    assert damaged != whole
-    path.write_bytes(damaged)
+def test_a_damaged_index_is_told_and_built_anew(stored, clips_folder, tmp_path, statement, told):
+    change(stored, statement)
     with pytest.raises(LibraryError, match=told) as error:
         open_library(stored)
     assert "again" in str(error.value)
     build_library([clips_folder], stored)
-    assert path.read_bytes() == whole
+    build_library([clips_folder], tmp_path / "fresh")
+    assert kept(stored)["generation"] == kept(tmp_path / "fresh")["generation"]
+    assert verify_library(stored) == []
 
 
-@pytest.mark.parametrize("name", ["rotations", "poses", "targets", "stops"])
+@pytest.mark.parametrize("data", [b"", b"\xff\xfe" * 5000, None], ids=["empty", "other", "half"])
+def test_an_index_that_is_none_is_told_and_built_anew(stored, clips_folder, data):
+    path = stored / "index.sqlite"
+    path.write_bytes(path.read_bytes()[:9000] if data is None else data)
+    with pytest.raises(LibraryError, match=r"damaged|not the index"):
+        open_library(stored)
+    build_library([clips_folder], stored)
+    assert len(open_library(stored).clips) == 6
+
+
+def test_the_index_of_another_program_is_left_alone(clips_folder, tmp_path):
+    index = sqlite3.connect(tmp_path / "index.sqlite")
+    index.execute("CREATE TABLE music (song TEXT)")
+    index.close()
+    with pytest.raises(LibraryError, match="not the index of a library; choose another folder"):
+        build_library([clips_folder], tmp_path)
+    assert sqlite3.connect(tmp_path / "index.sqlite").execute("SELECT * FROM music").fetchall() == []
+
+
+@pytest.mark.parametrize("name", ["indptr", "targets", "costs"])
 @pytest.mark.parametrize("how", ["truncated", "missing", "other", "pickled"])
-def test_damaged_arrays_say_to_build_again(stored, clips_folder, name, how):
-    path = data_of(stored) / f"{name}.npy"
+def test_damaged_arrays_of_the_graph_say_to_build_again(stored, clips_folder, name, how):
+    path = graph_of(stored) / f"{name}.npy"
     whole = path.read_bytes()
     if how == "truncated":
         path.write_bytes(whole[: len(whole) - 8])
@@ -91,17 +136,8 @@ def test_damaged_arrays_say_to_build_again(stored, clips_folder, name, how):
     assert path.read_bytes() == whole
 
 
-def test_a_change_that_is_not_seen_on_opening_is_not_built_upon(stored, clips_folder, dances, tmp_path):
-    path = data_of(stored) / "poses.npy"
-    np.save(path, np.load(path) + 1)
-    write_motion(dances[3], clips_folder / "d.npz")
-    build_library([clips_folder], stored)
-    build_library([clips_folder], tmp_path / "fresh")
-    assert data_of(stored).name == data_of(tmp_path / "fresh").name
-
-
 def test_joins_that_lead_nowhere_are_refused(stored):
-    path = data_of(stored) / "targets.npy"
+    path = graph_of(stored) / "targets.npy"
     targets = np.load(path)
     targets[0] = 10**6
     np.save(path, targets)
@@ -109,9 +145,32 @@ def test_joins_that_lead_nowhere_are_refused(stored):
         open_library(stored)
 
 
-@pytest.mark.parametrize("when", ["reading", "placing", "finding", "done"])
+@pytest.mark.parametrize("series", ["clips", "pairs"])
+def test_a_change_that_is_not_seen_on_opening_is_not_built_upon(stored, clips_folder, dances, tmp_path, series):
+    path = stored / "shards" / f"{series}-00000.bin"
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 255
+    path.write_bytes(data)
+    open_library(stored)
+    assert any("are not those it had" in line for line in verify_library(stored))
+    write_motion(dances[3], clips_folder / "d.npz")
+    build_library([clips_folder], stored)
+    build_library([clips_folder], tmp_path / "fresh")
+    assert kept(stored) == kept(tmp_path / "fresh")
+    assert verify_library(stored) == []
+
+
+def test_shards_that_are_gone_are_told_and_built_anew(stored, clips_folder):
+    (stored / "shards" / "clips-00000.bin").unlink()
+    with pytest.raises(LibraryError, match="is missing or damaged"):
+        open_library(stored)
+    build_library([clips_folder], stored)
+    assert verify_library(stored) == []
+
+
+@pytest.mark.parametrize("when", ["placing", "finding", "joining"])
 def test_a_build_that_is_stopped_leaves_the_old_library(stored, clips_folder, dances, when):
-    before = (stored / "library.json").read_bytes()
+    before = kept(stored)["generation"]
     write_motion(dances[3], clips_folder / "d.npz")
 
     def stop(what, share):
@@ -120,39 +179,38 @@ def test_a_build_that_is_stopped_leaves_the_old_library(stored, clips_folder, da
 
     with pytest.raises(KeyboardInterrupt):
         build_library([clips_folder], stored, step=stop)
-    assert (stored / "library.json").read_bytes() == before
+    assert kept(stored)["generation"] == before
     assert len(open_library(stored).clips) == 6
     assert len(build_library([clips_folder], stored).clips) == 8
 
 
-def test_a_build_killed_between_arrays_and_manifest_leaves_the_old_library(stored, clips_folder, dances, monkeypatch):
-    write_motion(dances[3], clips_folder / "d.npz")
-    (stored / ".data-0123.part").mkdir()  # of a build that was killed while it wrote
-    with monkeypatch.context() as patch:
-        patch.setattr(store, "write_atomically", lambda path, data: (_ for _ in ()).throw(KeyboardInterrupt))
-        with pytest.raises(KeyboardInterrupt):
-            build_library([clips_folder], stored)
-    assert len(list(stored.glob("data-*"))) == 2
-    assert len(open_library(stored).clips) == 6
-    assert len(build_library([clips_folder], stored).clips) == 8
-    assert sorted(p.name for p in stored.iterdir()) == [".lock", data_of(stored).name, "library.json"]
-
-
-def test_a_reader_may_go_on_while_the_library_is_replaced(stored, clips_folder):
+def test_a_reader_may_go_on_while_the_library_is_replaced(stored, clips_folder, dances):
     library = open_library(stored)
-    before = library.clips[-1].poses.sum(), library.clips[-1].motion.rotations.sum()
-    (clips_folder / "a.npz").unlink()
+    before = library.clips[-2].poses.sum(), library.graph.costs.sum()
+    for name in "ab":
+        (clips_folder / f"{name}.npz").unlink()
+    write_motion(dances[9], clips_folder / "x.npz")
     build_library([clips_folder], stored)
-    assert (library.clips[-1].poses.sum(), library.clips[-1].motion.rotations.sum()) == before
+    assert (library.clips[-2].poses.sum(), library.graph.costs.sum()) == before
+    assert library.clips[-1].motion.duration == 4
 
 
-def test_a_reader_between_two_manifests_reads_the_newer(stored, clips_folder, monkeypatch):
-    old = store.read_manifest(stored)
+def test_a_reader_between_two_generations_reads_the_newer(stored, clips_folder, monkeypatch):
+    old = read_stored(stored)
     (clips_folder / "a.npz").unlink()
     build_library([clips_folder], stored)
-    read, seen = store.read_manifest, [old]
-    monkeypatch.setattr(store, "read_manifest", lambda folder: seen.pop() if seen else read(folder))
+    read, seen = store.read_stored, [old]
+    monkeypatch.setattr(store, "read_stored", lambda folder: seen.pop() if seen else read(folder))
     assert len(open_library(stored).clips) == 4
+
+
+def test_an_index_is_read_while_it_is_written(stored):
+    index = create_index(stored / "index.sqlite")
+    index.execute("BEGIN IMMEDIATE")
+    index.execute("DELETE FROM members")
+    assert len(open_library(stored).clips) == 6
+    index.execute("ROLLBACK")
+    index.close()
 
 
 def test_two_builders_at_once_are_refused(stored, clips_folder, dances):

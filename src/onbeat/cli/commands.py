@@ -21,7 +21,7 @@ COMMANDS = {
     ),
     "moves": (
         "onbeat.cli.moves:moves_app",
-        "Build and show motion libraries: clips and the joins between them.",
+        "Build, show, check and change motion libraries: clips and the joins between them.",
         "onbeat moves build my_clips -o my_library",
     ),
     "keyposes": (

@@ -83,7 +83,7 @@ def live_command(
         return
     hear.check()
     send.check()
-    _check(motions, hear, keep, seconds, speed_up)
+    _check(motions, hear, body, keep, seconds, speed_up)
     show = Show(send, speed_up, seconds, quiet=json)
     with warnings_as_lines():
         told = show.again(keep.replay) if keep.replay else show.live(motions, hear, body, keep.record)
@@ -91,12 +91,20 @@ def live_command(
         print(json_module.dumps(told))  # noqa: T201
 
 
-def _check(motions: tuple[Path, ...], hear: HearFlags, keep: KeepFlags, seconds: float | None, speed_up: float) -> None:
+def _check(
+    motions: tuple[Path, ...],
+    hear: HearFlags,
+    body: BodyFlags,
+    keep: KeepFlags,
+    seconds: float | None,
+    speed_up: float,
+) -> None:
     if seconds is not None and not 0 < seconds < float("inf"):
         raise OnbeatError(f"--seconds {seconds:g}: give more than 0")
     if not PACES[0] <= speed_up <= PACES[1]:
         raise OnbeatError(f"--speed-up {speed_up:g}: give {PACES[0]:g} to {PACES[1]:g}")
     if speed_up != 1 and hear.input == "mic":
         raise OnbeatError(f"--speed-up {speed_up:g}: the time of a microphone cannot go faster; give a song")
-    if keep.replay is not None and (keep.record is not None or hear.input is not None or motions):
-        raise OnbeatError("--replay dances again what was kept: give it without motions, --input and --record")
+    told = motions or keep.record is not None or hear != NO_HEAR or body != NO_BODY
+    if keep.replay is not None and told:
+        raise OnbeatError("--replay dances again what was kept, as it was: give it without motions and other flags")

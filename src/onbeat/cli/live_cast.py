@@ -29,6 +29,8 @@ class Settings(msgspec.Struct, frozen=True):
     robot: str | None
     simulate: bool
     beats: str | None
+    song_at: float
+    fps: float | None
     tempo: str
     latency: float
     onbeat: str
@@ -37,7 +39,6 @@ class Settings(msgspec.Struct, frozen=True):
     def of(cls, motions: Sequence[Path], hear: HearFlags, body: BodyFlags) -> Settings:
         """From the flags; paths are made absolute, so that a recording finds them again."""
         _check(motions, body)
-        hear.tempi  # noqa: B018 - refused before anything is opened
         robot = body.robot
         if robot is not None and Path(robot).suffix:
             robot = str(Path(robot).absolute())
@@ -47,6 +48,8 @@ class Settings(msgspec.Struct, frozen=True):
             robot,
             body.simulate,
             None if body.beats is None else str(body.beats.absolute()),
+            body.song_at,
+            body.fps,
             hear.tempo,
             hear.latency / 1000,
             onbeat.__version__,
@@ -56,9 +59,11 @@ class Settings(msgspec.Struct, frozen=True):
     def read(cls, kept: object, folder: Path) -> Settings:
         """Those of a recording."""
         try:
-            return msgspec.convert(kept, cls)
-        except msgspec.ValidationError as error:
+            read = msgspec.convert(kept, cls)
+            HearFlags(tempo=read.tempo, latency=1000 * read.latency).check()
+        except (msgspec.ValidationError, OnbeatError) as error:
             raise OnbeatError(f"{folder} is a damaged recording: {error}") from None
+        return read
 
     @property
     def tempi(self) -> tuple[float, float]:
@@ -69,7 +74,7 @@ class Settings(msgspec.Struct, frozen=True):
     def body(self) -> BodyFlags:
         """Who dances."""
         moves, beats = (None if path is None else Path(path) for path in (self.moves, self.beats))
-        return BodyFlags(moves, self.robot, self.simulate, beats)
+        return BodyFlags(moves, self.robot, self.simulate, beats, self.song_at, self.fps)
 
 
 def cast_of(settings: Settings, stages: Stages) -> Cast:
@@ -102,10 +107,12 @@ def known(motions: Sequence[Path], flags: BodyFlags, stages: Stages) -> list[Kno
     out = list[Known]()
     for k, path in enumerate(motions):
         stages("reading", k / len(motions), path.name)
-        motion = read_motion(path).replace(name=path.stem)
-        beats, down = beats_of(motion, BeatFlags(beats=flags.beats))
-        first = int(np.searchsorted(beats, down[0] - 1e-6)) if len(down) else 0
-        out.append(Known(motion, beats[first:], np.asarray(find_keyposes(motion, beats).times)))
+        motion = read_motion(path, fps=flags.fps).replace(name=path.stem)
+        beats, down = beats_of(motion, BeatFlags(beats=flags.beats, song_at=flags.song_at))
+        places = np.searchsorted(beats, down - 1e-6)
+        first = int(places[0]) if len(places) else 0
+        meter = round(float(np.median(np.diff(places)))) if len(places) > 1 else 4
+        out.append(Known(motion, beats[first:], np.asarray(find_keyposes(motion, beats).times), max(meter, 1)))
     return out
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import cyclopts
 
 from onbeat.errors import OnbeatError
+from onbeat.music.tempo import FASTEST, SLOWEST
 
 Flag = Annotated[bool, cyclopts.Parameter(negative=())]
 LONGEST_LATENCY = 2000.0
@@ -33,7 +34,7 @@ class HearFlags:
     midi_in
         A MIDI port whose clock gives the beats.
     tempo
-        Slowest and fastest tempo to dance in, beats per minute: 70-140.
+        Slowest and fastest tempo to dance in, beats per minute: 70-140; from 40 to 240.
     """
 
     input: str | None = None
@@ -47,6 +48,7 @@ class HearFlags:
         """Refuse what cannot be, before anything is opened."""
         if not 0 <= self.latency <= LONGEST_LATENCY:
             raise OnbeatError(f"--latency {self.latency:g}: give 0 to {LONGEST_LATENCY:g} milliseconds")
+        _ = self.tempi
         if self.input not in (None, "mic") and not Path(self.input).is_file():
             raise OnbeatError(f"--input {self.input}: no such file; give a song, or mic for the sound card")
         if self.device is not None and self.input != "mic":
@@ -59,6 +61,8 @@ class HearFlags:
             low, high = (float(part) for part in self.tempo.split("-"))
         except ValueError:
             raise OnbeatError(f"--tempo {self.tempo}: give two numbers, such as 70-140") from None
+        if not SLOWEST <= low < high <= FASTEST:
+            raise OnbeatError(f"--tempo {self.tempo}: give two rising numbers from {SLOWEST:g} to {FASTEST:g}")
         return low, high
 
 
@@ -77,12 +81,18 @@ class BodyFlags:
         Show the robot in MuJoCo as it really moves, with motors, friction and falls.
     beats
         The beats of the one choreography that is given: a file with a time a line, or a song.json.
+    song_at
+        Second of it at which --beats begin.
+    fps
+        Frames a second of choreographies that store none, as AMC and tables of angles.
     """
 
     moves: Path | None = None
     robot: str | None = None
     simulate: Flag = False
     beats: Path | None = None
+    song_at: float = 0.0
+    fps: float | None = None
 
 
 @cyclopts.Parameter(name="*")
@@ -120,7 +130,7 @@ class SendFlags:
         """Refuse what cannot be, before anything is opened."""
         ports = {"--port": self.port, "--osc-in": self.osc_in, "--osc": (self.osc_address or ("", None))[1]}
         for flag, port in ports.items():
-            if port is not None and not 0 <= port < 65536:
+            if port is not None and not (flag != "--port") <= port < 65536:
                 raise OnbeatError(f"{flag}: {port} is no port; give 1 to 65535")
 
     @property
@@ -129,7 +139,7 @@ class SendFlags:
         if self.osc is None:
             return None
         host, _, port = self.osc.rpartition(":")
-        if not host or not port.isdigit():
+        if not host or not port.isdecimal():
             raise OnbeatError(f"--osc {self.osc}: give HOST:PORT, such as 127.0.0.1:9000")
         return host.strip("[]"), int(port)
 

@@ -23,7 +23,7 @@ class Screen:
 
     Parameters
     ----------
-    silent : print nothing but notes.
+    silent : no line that is kept up to date.
     """
 
     def __init__(self, silent: bool) -> None:
@@ -39,13 +39,11 @@ class Screen:
 
     def begin(self, dancer: str, source: str, mouths: Mouths) -> None:
         """Say what there is to be seen, and where."""
-        if self._silent:
-            return
         where = f" on {mouths.address}" if mouths.address else ""
         self.say(f"{dancer} dances to {source}{where}; Ctrl-C ends it")
         for note in mouths.notes:
             self.say(note)
-        if self._console.is_terminal:
+        if self._console.is_terminal and not self._silent:
             self._line = self._console.status("listening")
             self._line.start()
 
@@ -82,7 +80,7 @@ def summary(ran: Ran, passed: Sequence[Passed], poses: int, speed_up: float) -> 
         "ticks": ran.ticks,
         "without_sound": ran.silent,
         "poses": poses,
-        "cpu": round(ran.cpu / max(ran.ticks / RATE, 1e-9), 4),
+        "cpu": round(ran.cpu / max(ran.ticks / RATE, 0.5), 4),
         "seconds": round(ran.seconds, 2),
         "mouths": mouths,
     }

@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+import onbeat
 from onbeat.cli.live_cast import Settings, cast_of
 from onbeat.cli.live_flags import BodyFlags, HearFlags, SendFlags
 from onbeat.cli.live_mouths import listening, mouths_of
@@ -21,7 +22,7 @@ from onbeat.cli.progress import Stages
 from onbeat.live.cast import Cast
 from onbeat.live.hearing import Hearing, Inbox
 from onbeat.live.outputs import Outputs
-from onbeat.live.protocol import Event
+from onbeat.live.protocol import Event, Note
 from onbeat.live.pulse import Pulse
 from onbeat.live.record import Digest, Recording, Replay
 from onbeat.live.recorded import Recorded
@@ -67,10 +68,9 @@ class Show:
         ticks = Recorded(replay, self._clock)
         told = self._run(self._cast(settings), settings, Played(folder.name), ticks, inbox, digest, None)
         whole = told["ticks"] == len(replay)
-        told["same"] = digest.hexdigest() == replay.kept.poses if whole else None
+        told["same"] = digest.hexdigest() == replay.kept.poses if whole and replay.kept.poses else None
         if not self._quiet:
-            same = "the same to the bit" if told["same"] else "other poses than then: another onbeat, or machine?"
-            Screen.say(f"{told['poses']} poses, {same if whole else 'not danced to its end'}")
+            Screen.say(f"{told['poses']} poses, {_compared(told['same'], replay.kept.poses, settings)}")
         return told
 
     def _cast(self, settings: Settings) -> Cast:
@@ -95,16 +95,16 @@ class Show:
         screen = Screen(silent=self._quiet or self._send.lines is not None)
 
         def each(events: Sequence[Event]) -> None:
-            screen.each(events)
+            screen.each([*events, *counted.notes()])
             if mouths.ended:
                 runner.stop()
 
         mouths.open(outputs)
         try:
-            screen.begin(cast.who.name, played.name, mouths)
-            with listening(self._send, midi_in, inbox, runner), _ended_by_ctrl_c(runner):
+            with listening(self._send, midi_in, inbox, runner), _ended_by_signals(runner):
                 warm_up(session)
                 ticks.start()
+                screen.begin(cast.who.name, played.name, mouths)
                 ran = runner.run(self._seconds, each)
         finally:
             screen.end()
@@ -115,41 +115,64 @@ class Show:
         return told
 
 
+def _compared(same: bool | None, poses: str, settings: Settings) -> str:
+    if not poses:
+        return "to be compared with none: the session did not end well"
+    if same is None:
+        return "not danced to its end"
+    other = f"kept by onbeat {settings.onbeat}, this is {onbeat.__version__}"
+    return "the same to the bit" if same else f"other poses than then ({other})"
+
+
 class _Counted:
     """Hands ticks on to who keeps them, and counts poses."""
 
     def __init__(self, keeper: Recording | Digest | None) -> None:
         self._keeper, self.poses = keeper, 0
+        self._told = False
 
     def add(self, samples: Any, told: Any, poses: Any) -> None:
         self.poses += len(poses)
         if self._keeper is not None:
             self._keeper.add(samples, told, poses)
 
+    def notes(self) -> list[Note]:
+        """That nothing more is kept, once."""
+        failed = getattr(self._keeper, "failed", "")
+        if not failed or self._told:
+            return []
+        self._told = True
+        return [Note(0.0, failed)]
+
 
 @contextlib.contextmanager
-def _ended_by_ctrl_c(runner: Runner) -> Generator[None]:
+def _ended_by_signals(runner: Runner) -> Generator[None]:
     """Ctrl-C is how a show ends: after the present tick. A second one does not wait for that."""
 
     def end(number: int, frame: FrameType | None) -> None:
         runner.stop()
-        signal.signal(signal.SIGINT, before)
+        restore()
 
-    before = signal.signal(signal.SIGINT, end)
+    def restore() -> None:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+    names = ("SIGINT", "SIGTERM", "SIGHUP")  # also a closed terminal, and who stops services
+    numbers = [signal.Signals[name] for name in names if name in signal.Signals.__members__]
+    before = {number: signal.signal(number, end) for number in numbers}
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        restore()
 
 
 @contextlib.contextmanager
 def _kept(recording: Recording | None) -> Generator[None]:
-    """A recording gets its name when all went well, and is kept under its part's name else."""
+    """A recording gets its name in the end, however that comes; one of nothing is dropped."""
     try:
         yield
-    except BaseException:
-        if recording is not None:
+    finally:
+        if recording is not None and recording.ticks:
+            Screen.say(f"kept in {recording.close()}")
+        elif recording is not None:
             recording.drop()
-        raise
-    if recording is not None:
-        Screen.say(f"kept in {recording.close()}")

@@ -45,7 +45,7 @@ def source_of(flags: HearFlags, clock: Callable[[], float] = time.monotonic, spe
     if flags.input == "mic":
         from onbeat.live.microphone import Microphone
 
-        device = int(flags.device) if flags.device is not None and flags.device.isdigit() else flags.device
+        device = int(flags.device) if flags.device is not None and flags.device.isdecimal() else flags.device
         return Source(Microphone(device), Played("the microphone"))
     if flags.input is None:
         return _embedded(clock, speed_up)

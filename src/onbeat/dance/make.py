@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Times
@@ -17,6 +18,7 @@ from onbeat.dance.warp import Warp, fit_warp
 from onbeat.errors import PlanError
 from onbeat.motion.features import hand_features
 from onbeat.motion.motion import Motion
+from onbeat.moves.graph import MotionGraph
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 from onbeat.music.tempo import danceable_beats
@@ -91,7 +93,7 @@ def make_dance(
     """
     say = step or _silent
     song = _danceable(song)
-    fps = max(clip.motion.fps for clip in library.clips) if fps is None else fps
+    fps = max(clip.fps for clip in library.clips) if fps is None else fps
     if not 1.0 <= fps <= 1000.0:
         raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
     with threadpool_limits(1, "blas"):  # products of matrices on more threads differ in their last bits
@@ -99,20 +101,30 @@ def make_dance(
         found = search(
             library, song, method=method, rhythm_only=rhythm_only, seed=seed, step=lambda s: say("searching", s)
         )
-        clips = [clip.motion for clip in library.clips]
+        shown, plan = _shown(library, found.plan)
+        clips = [clip.motion for clip in shown.clips]
         say("dancing", 0.0)
-        first = realise(clips, found.plan, fps)
+        first = realise(clips, plan, fps)
         features = hand_features(first.motion)
         done, fitted = first, None
         if warp:
             say("warping", 0.4)
-            fitted = fit_warp(found.plan, features.body_stops, song.beats, features.times, features.speeds.max(axis=1))
-            done = realise(clips, found.plan, fps, fitted)
+            fitted = fit_warp(plan, features.body_stops, song.beats, features.times, features.speeds.max(axis=1))
+            done = realise(clips, plan, fps, fitted)
         say("measuring", 0.7)
-        measured = measure(library, song, found, first, done, fitted, seed)
+        measured = measure(shown, song, replace(found, plan=plan), first, done, fitted, seed)
     document = _document(library, song, found, done, fitted, measured, fps, seed, method)
     say("measuring", 1.0)
     return Dance(done.motion, song, found.plan, fitted, done, found, measured.stops, document)
+
+
+def _shown(library: MoveLibrary, plan: DancePlan) -> tuple[MoveLibrary, DancePlan]:
+    """The clips that a plan shows as a library without joins, and the plan over them: no other clip is read."""
+    used = sorted({move.clip for move in plan.moves})
+    place = {clip: k for k, clip in enumerate(used)}
+    nothing = MotionGraph(np.zeros(0, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.float32))
+    moves = tuple(replace(move, clip=place[move.clip]) for move in plan.moves)
+    return MoveLibrary(tuple(library.clips[clip] for clip in used), nothing), DancePlan(moves, plan.duration)
 
 
 def _danceable(song: Song) -> Song:

@@ -85,8 +85,14 @@ def _beats(features: HandFeatures, song: Song, strong: Times, seed: int) -> Scor
 
 
 def _searched(found: Found) -> Scores:
+    """How good the plan is; of a part of a library also what part it was, and how far below the bound at most."""
     gap = None if not found.optimum else found.objective / found.optimum
-    return {"objective": found.objective, "optimum_with_repeats": found.optimum, "of_optimum": gap}
+    scores: Scores = {"objective": found.objective, "optimum_with_repeats": found.optimum, "of_optimum": gap}
+    if found.searched is None:
+        return scores
+    part, bound, best = found.searched, found.searched.bound, found.optimum or found.objective
+    below = 1 - best / bound if bound > 0 else None
+    return scores | {"searched_s": part.seconds, "library_s": part.whole, "bound": bound, "gap_at_most": below}
 
 
 def _warped(before: HandFeatures, after: HandFeatures, warp: Warp | None, found: Found) -> Scores:

@@ -50,33 +50,37 @@ class Seams:
     sign: Float32
 
 
-def find_seams(library: MoveLibrary) -> Seams:
-    """Look at all joins of a library."""
-    graph = library.graph
-    paths, speeds, starts = _hands(library)
-    leave, enter = graph.sources, graph.targets
-    clip_of = graph.clip_of
-    left = starts[clip_of[leave]] + np.round((leave - library.starts[clip_of[leave]]) * RATE / GRID).astype(np.int64)
-    right = starts[clip_of[enter]] + np.round((enter - library.starts[clip_of[enter]]) * RATE / GRID).astype(np.int64)
+def find_seams(library: MoveLibrary, joins: tuple[Ints, Ints] | None = None) -> Seams:
+    """Look at all joins of a library, or at ``joins`` from frames to frames of its graph."""
+    leave, enter = (library.graph.sources, library.graph.targets) if joins is None else joins
+    clip_of = library.graph.clip_of
+    used = np.unique(np.concatenate((clip_of[leave], clip_of[enter]))) if joins else np.arange(len(library.clips))
+    paths, speeds, starts = _hands(library, used)
+    place = np.zeros(len(library.clips), np.int64)
+    place[used] = np.arange(len(used))
+    leaving, entering = clip_of[leave], clip_of[enter]
+    leave, enter = leave - library.starts[leaving], enter - library.starts[entering]
+    leaving, entering = place[leaving], place[entering]
+    left = starts[leaving] + np.round(leave * RATE / GRID).astype(np.int64)
+    right = starts[entering] + np.round(enter * RATE / GRID).astype(np.int64)
     half = round(SEEN * RATE)
     times = np.arange(-half, half + 1) / RATE
-    stops = [clip.stops for clip in library.clips]
+    stops = [library.clips[clip].stops for clip in used.tolist()]
     stop_ptr = np.concatenate(([0], np.cumsum([len(s) for s in stops]))).astype(np.int64)
     count, at, sign = _compare(
-        paths, speeds, starts, left, right,
-        clip_of[leave], clip_of[enter],
-        (leave - library.starts[clip_of[leave]]) / GRID, (enter - library.starts[clip_of[enter]]) / GRID,
+        paths, speeds, starts, left, right, leaving, entering, leave / GRID, enter / GRID,
         stop_ptr, np.concatenate([*stops, np.zeros(1)]), ndtr(times / SMOOTHING), _easing(times), half,
     )  # fmt: skip
     indptr = np.concatenate(([0], np.cumsum(count))).astype(np.int32)
     return Seams(indptr, np.round(at * GRID * FINE).astype(np.int32), sign)
 
 
-def _hands(library: MoveLibrary) -> tuple[Array, Array, Ints]:
-    """Paths (n, 2, 3) m and velocities m/s of the hands at ``RATE``, smoothed, all clips in a row; and their starts."""
+def _hands(library: MoveLibrary, used: Ints) -> tuple[Array, Array, Ints]:
+    """Paths (n, 2, 3) m and velocities m/s of the hands at ``RATE``, smoothed, clips in a row; and their starts."""
     paths: list[Array] = []
-    for clip in library.clips:
-        motion = clip.motion if clip.motion.fps == RATE else clip.motion.at(_times(clip.motion.duration))
+    for clip in used.tolist():
+        motion = library.clips[clip].motion
+        motion = motion if motion.fps == RATE else motion.at(_times(motion.duration))
         paths.append(gaussian_filter1d(hand_paths(motion), SMOOTHING * RATE, axis=0, mode="nearest"))
     speeds = [np.gradient(path, axis=0) * RATE for path in paths]
     starts = np.concatenate(([0], np.cumsum([len(path) for path in paths]))).astype(np.int64)

@@ -8,12 +8,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from onbeat.dance.bound import most_earned
+from onbeat.dance.candidates import find_part
 from onbeat.dance.frames import RATES, lay_frames
 from onbeat.dance.greedy import greedy_path
 from onbeat.dance.lookahead import Roads
 from onbeat.dance.optimal import Path, Problem, ValueToGo, best_path, score_path
+from onbeat.dance.part import Part, cut_library
 from onbeat.dance.plan import DancePlan, Move
-from onbeat.dance.score import score_music
+from onbeat.dance.score import Music, score_music, z_rank
 from onbeat.dance.seams import find_seams
 from onbeat.dance.shiratori2006 import shiratori2006_path
 from onbeat.dance.variety import beam_path
@@ -31,6 +34,31 @@ ALIKE = 0.30
 METHODS = ("optimal", "shiratori2006", "greedy", "walk")
 CHAPTER, AHEAD = 600.0, 15.0
 """Seconds of song searched at once, and seconds beyond them that are known."""
+LARGEST = 1_500_000
+"""Frames at all rates and joins of a library that is searched as a whole: about 20 s for a minute of song."""
+PART = 40_000
+"""Frames of the part of a greater one that is searched for a minute of song."""
+
+
+@dataclass(frozen=True, eq=False)
+class Searched:
+    """What was searched of a library.
+
+    Parameters
+    ----------
+    part : its stretches that were searched.
+    whole : seconds of the library, mirror images counted.
+    bound : what no dance with the whole library can be above (:mod:`onbeat.dance.bound`).
+    """
+
+    part: Part
+    whole: float
+    bound: float
+
+    @property
+    def seconds(self) -> float:
+        """Seconds of the part."""
+        return len(self.part) / GRID
 
 
 @dataclass(frozen=True)
@@ -43,24 +71,35 @@ class Found:
     objective : the score of the plan.
     optimum : the score of the best plan of all on the same graph, repeats allowed; None where it was not computed.
     seconds : CPU seconds of the search.
+    searched : what was searched of a library too great for the whole; then ``optimum`` is that of the part.
     """
 
     plan: DancePlan
     objective: float
     optimum: float | None
     seconds: float
+    searched: Searched | None = None
 
 
 def make_problem(
-    library: MoveLibrary, song: Song, *, rhythm_only: bool = False, rates: tuple[float, ...] = RATES
+    library: MoveLibrary,
+    song: Song,
+    *,
+    rhythm_only: bool = False,
+    rates: tuple[float, ...] = RATES,
+    part: Part | None = None,
 ) -> Problem:
-    """What the searches search: the library's frames and joins, the song's worth, and what joins cost."""
+    """What the searches search: the frames and joins of a library or a part, the song's worth, and what joins cost."""
     if song.duration <= 0:
         raise PlanError("the song has no length; choose a stretch of it with --start and --seconds")
-    costs = JOIN + ROUGH * (library.graph.costs / ALIKE) ** 2
     music = score_music(song, rhythm_only=rhythm_only)
+    graph, joins = library.graph, None
+    if part is not None:
+        graph = part.joins(library.graph)
+        joins = part.frames[graph.sources], part.frames[graph.targets]
+    costs = JOIN + ROUGH * (graph.costs / ALIKE) ** 2
     return Problem(
-        library.graph, lay_frames(library, rates), music, costs.astype(np.float32), seams=find_seams(library)
+        graph, lay_frames(library, rates, part), music, costs.astype(np.float32), seams=find_seams(library, joins)
     )
 
 
@@ -113,7 +152,7 @@ def plan_of(problem: Problem, library: MoveLibrary, path: Path, duration: float)
     at = [t / GRID for t in path.times.tolist()]
     moves: list[Move] = []
     for f, start, end in zip(path.entries.tolist(), at, [*at[1:], duration], strict=True):
-        clip, rate, second = int(library.graph.clip_of[laid.base[f]]), float(laid.rate[f]), float(laid.second[f])
+        clip, rate, second = int(problem.graph.clip_of[laid.base[f]]), float(laid.rate[f]), float(laid.second[f])
         moves.append(Move(clip, second, second + rate * (end - start), start, rate))
     return DancePlan(tuple(moves), duration)
 
@@ -145,17 +184,72 @@ def search(
         If there is no such method, or no dance as long as the song.
     """
     begun = time.process_time()
-    problem = make_problem(library, song, rhythm_only=rhythm_only)
-    optimum = None
-    if method == "optimal":
-        path, optimum = optimal(problem, variety=variety, step=step)
-    elif method == "greedy":
-        path = greedy_path(problem)
-    elif method == "shiratori2006":
-        path = shiratori2006_path(problem, library, song, rhythm_only=rhythm_only)
-    elif method == "walk":
-        path = random_walk(problem, np.random.default_rng(seed))
-    else:
+    if method not in METHODS:
         raise PlanError(f"no search method {method!r}; there are {', '.join(METHODS)}")
-    plan = plan_of(problem, library, path, song.duration)
-    return Found(plan, path.score, optimum, time.process_time() - begun)
+    settings = Settings(method, rhythm_only, variety, seed, step)
+    found = settings.whole(library, song) if fits(library) else settings.part(library, song)
+    return replace(found, seconds=time.process_time() - begun)
+
+
+def fits(library: MoveLibrary) -> bool:
+    """Whether a library is searched as a whole, frame by frame and join by join."""
+    return len(library.graph) * sum(1 / rate for rate in RATES) + library.graph.join_count <= LARGEST
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How is searched, as :func:`search` takes it."""
+
+    method: str
+    rhythm_only: bool
+    variety: bool
+    seed: int
+    step: Callable[[float], None] | None
+
+    def whole(self, library: MoveLibrary, song: Song) -> Found:
+        """By the method asked for, over all frames and joins."""
+        problem = make_problem(library, song, rhythm_only=self.rhythm_only)
+        optimum = None
+        if self.method == "optimal":
+            path, optimum = optimal(problem, variety=self.variety, step=self.step)
+        elif self.method == "greedy":
+            path = greedy_path(problem)
+        elif self.method == "shiratori2006":
+            path = shiratori2006_path(problem, library, song, rhythm_only=self.rhythm_only)
+        else:
+            path = random_walk(problem, np.random.default_rng(self.seed))
+        return Found(plan_of(problem, library, path, song.duration), path.score, optimum, 0.0)
+
+    def part(self, library: MoveLibrary, song: Song) -> Found:
+        """Over the part of a great library that is worth it."""
+        music = score_music(song, rhythm_only=self.rhythm_only)
+        part = candidates(library, music)
+        bound = float(most_earned(music, z_rank(library.intensity)).sum())
+        searched = Searched(part, len(library.graph) / GRID, bound)
+        if self.method == "optimal":
+            problem = make_problem(library, song, rhythm_only=self.rhythm_only, part=part)
+            path, optimum = optimal(problem, variety=self.variety, step=self.step)
+            return Found(plan_of(problem, library, path, song.duration), path.score, optimum, 0.0, searched)
+        found = self.whole(cut_library(library, part), song)
+        return replace(found, plan=_within(found.plan, library, part), searched=searched)
+
+
+def candidates(library: MoveLibrary, music: Music, frames: int | None = None) -> Part:
+    """The part of a great library that is worth searching for a song; by default ``PART`` frames for each minute."""
+    minutes = max(1.0, music.frames / GRID / 60)
+    return find_part(library, music, (JOIN, ROUGH / ALIKE**2), round(PART * minutes) if frames is None else frames)
+
+
+def _within(plan: DancePlan, library: MoveLibrary, part: Part) -> DancePlan:
+    """A plan over the stretches of a part as one over the library's clips."""
+    later = (part.first - library.starts[part.clip]) / GRID
+    moves = [
+        replace(
+            move,
+            clip=int(part.clip[move.clip]),
+            from_s=move.from_s + float(later[move.clip]),
+            to_s=move.to_s + float(later[move.clip]),
+        )
+        for move in plan.moves
+    ]
+    return DancePlan(tuple(moves), plan.duration)

@@ -170,6 +170,7 @@ def _solve(knots: Times, low: Array, high: Array, beats: Times, stops: Times) ->
         (low, high),
         equal=(ends, np.array([0.0, knots[-1]])),
         box=(knots - REACH, knots + REACH),
+        creeping=True,  # the cost of a long dance is too great for the last digits of its gap
     )
     if values is None:
         raise PlanError("no time warp keeps its limits; play the plan as it is with --no-warp")

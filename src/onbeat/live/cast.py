@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from onbeat._shapes import Ints
+from onbeat.dance.sublibrary import sublibrary
 from onbeat.errors import PlanError
 from onbeat.live.choreography import Choreography, Repertoire
 from onbeat.live.conductor import Conductor, Rest
@@ -22,12 +23,15 @@ from onbeat.live.session import Tried
 from onbeat.live.turned import Turned
 from onbeat.motion.motion import Motion
 from onbeat.motion.retarget import grounded, retarget
+from onbeat.moves.clips import MIRROR_SUFFIX
 from onbeat.moves.library import MoveLibrary
 from onbeat.moves.poses import pose_vectors
 from onbeat.viewer.content import body_data
 from onbeat.viewer.contract import CapsuleData
 from onbeat.viewer.figure import Figure, ground_height
 
+DANCED, MOST = 110.0, 1200.0
+"""Beats a minute that a part of a great library is chosen for, and its seconds: as much as is searched in time."""
 FIRST = 2.0
 """Seconds of rest that are looked at for the height of the floor."""
 
@@ -72,9 +76,10 @@ class Known:
 
 
 def improvising(library: MoveLibrary) -> Cast:
-    """A character who makes its dance up from a library's moves."""
+    """A character who makes its dance up from a library's moves; of a great library, from a part that suits dances."""
+    library = sublibrary(library, DANCED, MOST)
     clips = [clip.motion for clip in library.clips]
-    names = tuple(clip.name for clip in library.clips)
+    names = tuple(clip.name.replace(MIRROR_SUFFIX, ", mirrored") for clip in library.clips)
     improviser = Improviser(library)
 
     def picker(rest: Motion) -> Picker:
@@ -95,13 +100,13 @@ def following(dances: Sequence[Known]) -> Cast:
     """
     if not dances:
         raise PlanError("no choreography to dance; give one motion or more")
-    first = grounded(dances[0].motion)
-    clips = [first] + [_on(first, dance.motion) for dance in dances[1:]]
     names = distinct([dance.motion.name or f"dance {k + 1}" for k, dance in enumerate(dances)])
     plans = [
-        Choreography(name, k, clips[k].duration, dance.beats, dance.meter, dance.keyposes)
+        Choreography(name, k, dance.motion.duration, dance.beats, dance.meter, dance.keyposes)
         for k, (name, dance) in enumerate(zip(names, dances, strict=True))
     ]
+    first = grounded(dances[0].motion)
+    clips = [first] + [_on(first, dance.motion) for dance in dances[1:]]
     return _character(clips, lambda rest: Repertoire(plans), names[0])
 
 

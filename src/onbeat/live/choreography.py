@@ -23,6 +23,8 @@ SLOWEST, FASTEST = 0.6, 1.6
 """Rates at which a choreography may be played."""
 DRIFTED = 0.12
 """Share by which the rate may be off before the next phrase has another."""
+PERIODS = (0.2, 3.0)
+"""Seconds between beats of a dance."""
 KEYPOSE_NEAR = 0.25
 """Of a beat: a keypose so near is what is put on it."""
 
@@ -43,7 +45,7 @@ class Choreography:
     Raises
     ------
     PlanError
-        If there are less than two beats inside, or they do not rise.
+        If there are less than two beats inside, they do not rise, or are no beats of a dance.
     """
 
     name: str
@@ -61,6 +63,10 @@ class Choreography:
                 f"{self.name} has {len(beats)} beats that rise; two or more are needed to dance it on music"
             )
         object.__setattr__(self, "beats", frozen(beats))
+        if not PERIODS[0] <= self.period <= PERIODS[1]:
+            raise PlanError(
+                f"the beats of {self.name} are {self.period:.3g} s apart; {PERIODS[0]:g} to {PERIODS[1]:g} s are danced"
+            )
 
     @property
     def period(self) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from onbeat._shapes import Array, Times
+from onbeat._shapes import Times
 from onbeat.live.pickers import Choice, Picker, Piece
 from onbeat.live.pulse import Heard
 from onbeat.live.timeline import Ahead, Anchors, Timeline
@@ -50,6 +50,7 @@ class Conductor:
         self.anchors = Anchors()
         self.dancing = RESTING
         self.changed = False
+        self._dances = False
         self._wanted = True
         self._asked = False
         self._rested = 0.0
@@ -58,7 +59,7 @@ class Conductor:
     @property
     def resting(self) -> bool:
         """Whether it is not dancing."""
-        return self.dancing == RESTING
+        return not self._dances
 
     def command(self, do: str, value: str = "") -> str | None:
         """Do as somebody wishes; what is wrong with the wish, if anything."""
@@ -102,12 +103,7 @@ class Conductor:
 
     def ahead(self, heard: Heard, music: float, own: float) -> Ahead:
         """The foretold beats on the timeline: those that are anchored where they are, others as far on as in music."""
-        known = [(beat, at) for beat, at in self.anchors.seconds.items() if 0 <= beat - heard.first < len(heard.times)]
-        beat, second = max(known, default=(None, own))
-        at = music if beat is None else float(heard.times[beat - heard.first])
-        times: Array = second + (heard.times - at)
-        for beat, second in known:
-            times[beat - heard.first] = second
+        times = _on_the_line(self.anchors, heard, music, own)
         period = float(np.median(np.diff(heard.times)))
         more = np.arange(1, max(int((own + FAR - times[-1]) / period) + 1, 1))
         positions = (heard.positions[-1] - 1 + more) % heard.meter + 1
@@ -145,7 +141,7 @@ class Conductor:
         coming = [at for _, at in self.anchors.next_after(own + self.line.margin)]
         self._cut(coming[0] if coming and coming[0] < own + PATIENCE else own + self.line.margin)
         self.anchors.clear()
-        self.dancing, self._rested = RESTING, 0.0
+        self.dancing, self._dances, self._rested = RESTING, False, 0.0
         self._relax(GO_ON)
 
     def _begin(self, heard: Heard, music: float, own: float) -> None:
@@ -163,7 +159,7 @@ class Conductor:
             self.line.add(piece.clip, piece.from_s, piece.to_s, piece.rate)
         for beat, second in choice.beats:
             self.anchors.put(beat, at + second)
-        self.dancing = choice.name
+        self.dancing, self._dances = choice.name, True
 
     def _relax(self, seconds: float) -> None:
         """Some more of standing at ease."""
@@ -178,3 +174,19 @@ class Conductor:
     def _position(heard: Heard, beat: int) -> int:
         place = beat - heard.first
         return int(heard.positions[place]) if 0 <= place < len(heard.positions) else 0
+
+
+def _on_the_line(anchors: Anchors, heard: Heard, music: float, own: float) -> Times:
+    """Seconds of the timeline of the beats that are heard: anchored ones, between them evenly, outside as in music."""
+    inside = [
+        (b - heard.first, at) for b, at in sorted(anchors.seconds.items()) if 0 <= b - heard.first < len(heard.times)
+    ]
+    if not inside:
+        return own + (heard.times - music)
+    places, seconds = (np.array(part, dtype=np.float64) for part in zip(*inside, strict=True))
+    numbers = np.arange(len(heard.times))
+    first, last = int(places[0]), int(places[-1])
+    times = np.interp(numbers, places, seconds)
+    times[:first] += heard.times[:first] - heard.times[first]
+    times[last + 1 :] += heard.times[last + 1 :] - heard.times[last]
+    return times

@@ -102,6 +102,11 @@ class Hearing:
         return [*self._listener.notes(), *self._ears.problems(), *self._inbox.notes()]
 
     @property
+    def given(self) -> bool:
+        """A tick of sound is always one."""
+        return False
+
+    @property
     def lost(self) -> bool:
         """Whether no sound is to be waited for."""
         return self._listener.state != "sound"

@@ -14,6 +14,8 @@ from onbeat._shapes import Float32
 from onbeat.errors import AudioError
 from onbeat.live.listener import Block, Handover, State
 
+TOLD = 0.5
+"""Seconds that the song has waited from which on that is said."""
 AT_ONCE = 0.5
 """Seconds of song that one reading gives at the most."""
 PATIENCE = 2.0
@@ -101,9 +103,9 @@ class Played(ABC):
         until = self._pace.until(self._given / self._rate)
         block = self._next(max(math.floor(until * self._rate + 1e-6) - self._given, 0))
         self._given += len(block)
-        if self._pace.waited and not self._slow:
+        if self._pace.waited >= TOLD and not self._slow:
             self._slow = True
-            self._way.say(f"nobody listened for a while: the song has waited {self._pace.waited:.1f} s")
+            self._way.say(f"this machine was too busy for a moment: the song has waited {self._pace.waited:.1f} s")
         return [(block, self._rate)] if len(block) else []
 
     def notes(self) -> list[str]:

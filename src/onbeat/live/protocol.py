@@ -84,8 +84,9 @@ class Status(msgspec.Struct, frozen=True, tag="status"):
     """How things are, twenty times a second.
 
     ``next_beats`` are those foretold, the first of them at place ``next_position`` of a bar of ``meter`` beats;
-    ``tempo`` in beats per minute, 0 before there is one. ``level`` are the loudest samples (0…1) of each of the last
-    ticks. ``dancing`` is the name of what is danced. ``clock`` is how fast the dance goes now, 1 as it was made.
+    ``tempo`` in beats per minute; 0, and no beats, where nothing is heard. ``level`` are the loudest samples (0…1) of
+    each of the last ticks. ``dancing`` is the name of what is danced. ``clock`` is how fast the dance goes now, 1 as it
+    was made.
     """
 
     time: float

@@ -33,7 +33,7 @@ class Recorded:
         self._began = self._clock()
 
     def tick(self) -> Float32 | None:
-        """The next tick if it is due; also None where the recording has no sound: then ``lost`` says so."""
+        """The next tick if it is due; also None where the recording has no sound: then ``given`` says so."""
         self._silent = False
         if self.over or self._clock() - self._began < self._given / RATE:
             return None
@@ -52,9 +52,14 @@ class Recorded:
         return []
 
     @property
-    def lost(self) -> bool:
+    def given(self) -> bool:
         """Whether the tick just given has no sound."""
         return self._silent
+
+    @property
+    def lost(self) -> bool:
+        """Nothing is waited for but the time of the next tick."""
+        return False
 
     @property
     def over(self) -> bool:

@@ -47,6 +47,11 @@ class Ticks(Protocol):
         ...
 
     @property
+    def given(self) -> bool:
+        """Whether what ``tick`` gave last is a tick, though it be None: one that had no sound when it was kept."""
+        ...
+
+    @property
     def lost(self) -> bool:
         """Whether no sound is to be waited for."""
         ...
@@ -81,12 +86,17 @@ class Pacer:
     Parameters
     ----------
     outputs : to whom.
-    clock : seconds that rise, those of ``time.perf_counter`` by default.
+    clock, sleep : of the machine; seconds that rise, those of ``time.perf_counter`` by default.
     """
 
-    def __init__(self, outputs: Outputs, clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(
+        self,
+        outputs: Outputs,
+        clock: Callable[[], float] = time.perf_counter,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
         self.epoch = clock()
-        self._outputs, self._clock = outputs, clock
+        self._outputs, self._clock, self._sleep = outputs, clock, sleep
         self._poses: deque[Pose] = deque(maxlen=10 * RATE)
         self._more = threading.Event()
         self._ended = False
@@ -118,7 +128,7 @@ class Pacer:
             due = self.epoch + pose.time
             wait = due - self._clock()
             if wait > 0:
-                time.sleep(min(wait, 0.05))
+                self._sleep(min(wait, 0.05))
                 continue
             self._poses.popleft()
             self._outputs.pose(pose, due)
@@ -146,7 +156,7 @@ class Runner:
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         self.session, self.ticks, self.outputs, self.recorder = session, ticks, outputs, recorder
-        self.pacer = Pacer(outputs, clock)
+        self.pacer = Pacer(outputs, clock, sleep)
         self._clock, self._sleep = clock, sleep
         self._silent = 0
         self._stopped = False
@@ -180,7 +190,7 @@ class Runner:
         late = (self._clock() - self.pacer.epoch) * RATE - self.session.ticks
         samples = self.ticks.tick()
         if samples is None:
-            if late < (1 if self.ticks.lost else STARVED):
+            if not self.ticks.given and late < (1 if self.ticks.lost else STARVED):
                 return None
             self._silent += 1
             if late > STARVED + CAUGHT_UP:  # the machine slept, or we did: time that nobody danced through
@@ -197,4 +207,3 @@ class Runner:
         for event in events:
             self.outputs.say(event)
         return events
-

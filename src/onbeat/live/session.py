@@ -63,7 +63,6 @@ class Session:
         self.ticks = 0
         self._due = 0
         self._level = list[float]()
-        self._heard: Heard | None = None
         self._clock = 1.0
 
     @property
@@ -76,7 +75,7 @@ class Session:
         for clocked in told.clocked:
             self.pulse.clocked(clocked)
         events: list[Event] = [*self._obey(told.commands)]
-        heard = self._heard = self.pulse.hear(samples)
+        heard = self.pulse.hear(samples)
         self.ticks += 1
         self._level.append(heard.level)
         events.extend(heard.said)
@@ -125,14 +124,15 @@ class Session:
     def _status(self, heard: Heard) -> Status:
         level, self._level = self._level, []
         coming = np.flatnonzero(heard.times > heard.time)[:FORETOLD]
+        music = heard.hearing != "nothing"
         return Status(
             time=round(heard.time, 4),
             hearing=heard.hearing,
-            tempo=round(heard.tempo, 2),
+            tempo=round(heard.tempo, 2) if music else 0.0,
             confidence=round(heard.confidence, 3),
             meter=heard.meter,
             next_position=int(heard.positions[coming[0]]) if len(coming) else 0,
-            next_beats=[round(float(heard.times[k]), 4) for k in coming] if heard.tempo else [],
+            next_beats=[round(float(heard.times[k]), 4) for k in coming] if music else [],
             level=[round(value, 3) for value in level],
             dancing=self.conductor.dancing,
             clock=round(self._clock, 3),
@@ -147,4 +147,3 @@ def warm_up(session: Session) -> None:
     for _ in range(50):
         pulse.hear(clicks)
     session.follower.dance.values(np.arange(0, 0.2, 0.01), session.follower.body.controls[1])
-

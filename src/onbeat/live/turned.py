@@ -23,6 +23,10 @@ ROOM = 1.3
 """How much faster, and how much quicker in changing that, a joint may turn than it ever does in the clips."""
 LEAST_SPEED, LEAST_ACCELERATION = 0.5, 10.0
 """rad/s and rad/s² that every component may have."""
+MOST_SPEED, MOST_ACCELERATION = 25.0, 500.0
+"""rad/s and rad/s² that none may have, whatever a bad frame of a capture does."""
+LASTING, PEAK = 3, 1.5
+"""Frames that a speed has to last, and how far the highest speed of a swing is over that."""
 READ = 60.0
 """Hz at which the clips are read for what they reach."""
 
@@ -97,12 +101,13 @@ def _means(rotations: Rotations, joints: Ints) -> Rotations:
 
 
 def _bounds(vectors: Sequence[Array], fps: Sequence[float]) -> Bounds:
-    """Bounds of each component: what it reaches in the clips, and some room."""
+    """Bounds of each component: what it reaches in the clips and lasts, for captures jump, and some room."""
     speeds, quick = list[Array](), list[Array]()
     for part, rate in zip(vectors, fps, strict=True):
-        speeds.append(np.abs(np.diff(part, axis=0)).max(axis=0, initial=0.0) * rate)
+        lasting = np.abs(part[LASTING:] - part[:-LASTING]).max(axis=0, initial=0.0) * rate / LASTING
+        speeds.append(np.minimum(np.abs(np.diff(part, axis=0)).max(axis=0, initial=0.0) * rate, PEAK * lasting))
         quick.append(np.abs(np.diff(part, 2, axis=0)).max(axis=0, initial=0.0) * rate**2)
-    speed = np.maximum(ROOM * np.max(speeds, axis=0), LEAST_SPEED)
-    acceleration = np.maximum(ROOM * np.max(quick, axis=0), LEAST_ACCELERATION)
+    speed = np.clip(ROOM * np.max(speeds, axis=0), LEAST_SPEED, MOST_SPEED)
+    acceleration = np.clip(ROOM * np.max(quick, axis=0), LEAST_ACCELERATION, MOST_ACCELERATION)
     free = np.full(len(speed), np.inf)
     return Bounds(-free, free, speed, acceleration, free)

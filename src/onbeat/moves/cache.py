@@ -14,12 +14,15 @@ import platformdirs
 
 from onbeat.errors import OnbeatError
 from onbeat.motion.motion import Motion
-from onbeat.moves.build import Step, assemble, build_recordings
+from onbeat.moves.build import assemble, build_recordings
+from onbeat.moves.engine import Engine
+from onbeat.moves.generations import Options
 from onbeat.moves.library import MoveLibrary
 from onbeat.moves.lock import StorageError
-from onbeat.moves.manifest import method_digest
+from onbeat.moves.making import Step
+from onbeat.moves.methods import method_digest
 from onbeat.moves.recordings import Recording, find_recordings, motion_digest
-from onbeat.moves.store import is_library, open_library, read_manifest
+from onbeat.moves.store import is_library, open_library, read_stored
 
 
 class CacheWarning(UserWarning):
@@ -60,7 +63,7 @@ def build_or_open(
         return open_library(places[0])
     key = repr(([str(place.resolve()) for place in places], mirror, fps))
     recordings = find_recordings(places, fps)
-    return _kept(recordings, _folder(key, cache), mirror=mirror, fps=fps, step=step, workers=workers)
+    return _kept(recordings, _folder(key, cache), Options(mirror, fps), step, workers)
 
 
 def build_from(
@@ -81,10 +84,10 @@ def build_from(
     """
     folder = _folder(repr((key, mirror)), cache)
     with contextlib.suppress(OnbeatError):
-        if is_library(folder) and read_manifest(folder).method == method_digest():
+        if is_library(folder) and read_stored(folder).generation.method == method_digest():
             return open_library(folder)
     recordings = [Recording(m.name, m.name, motion_digest(m), partial(_same, m)) for m in motions()]
-    return _kept(recordings, folder, mirror=mirror, fps=None, step=step, workers=workers)
+    return _kept(recordings, folder, Options(mirror), step, workers)
 
 
 def _same(motion: Motion) -> Motion:
@@ -96,12 +99,12 @@ def _folder(key: str, cache: Path | None) -> Path:
 
 
 def _kept(
-    recordings: Sequence[Recording], folder: Path, *, mirror: bool, fps: float | None, step: Step | None, workers: int
+    recordings: Sequence[Recording], folder: Path, options: Options, step: Step | None, workers: int
 ) -> MoveLibrary:
     """Build in the cache, or in memory where that cannot be."""
     try:
-        return build_recordings(recordings, folder, mirror=mirror, fps=fps, step=step, workers=workers)
+        return build_recordings(recordings, folder, options, step=step, engine=Engine(workers=workers))
     except StorageError as error:
         reason = str(error).replace("choose another folder", "set ONBEAT_CACHE to another folder")
         warnings.warn(f"the library is not kept for the next time: {reason}", CacheWarning, stacklevel=3)
-    return assemble(recordings, mirror=mirror, fps=fps, step=step, workers=workers)
+    return assemble(recordings, options, step=step)

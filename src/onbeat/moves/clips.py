@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from onbeat.errors import LibraryError, OnbeatError
@@ -58,6 +58,8 @@ def read_recording(recording: Recording) -> Read:
             how = Body.of(motion.skeleton).how
         except (OnbeatError, OSError) as error:
             raise LibraryError(_one_line(error, recording)) from None
+        finally:
+            _refuse_changed(recording)
     if motion.duration < SHORTEST:
         raise LibraryError(f"too short: {motion.duration:.1f} s, at least {SHORTEST:.1f} s are needed")
     body, seconds = skeleton_digest(motion.skeleton), motion.duration
@@ -67,29 +69,28 @@ def read_recording(recording: Recording) -> Read:
     return Read(recording, body, seconds, notes, lambda: motion)
 
 
+class ChangedError(LibraryError):
+    """A file that was written to while it was read: what was read of it is of no moment."""
+
+
+def _refuse_changed(recording: Recording) -> None:
+    if recording.has_changed():
+        raise ChangedError("changed while it was read; build again when nobody writes to it")
+
+
 def _one_line(error: Exception | Warning | str, recording: Recording) -> str:
-    """A message without line breaks and without the file's name, which is told beside it."""
+    """A message without line breaks and without the file's name, which may change and is told beside it."""
     text = " ".join(str(error).split())
-    path = getattr(recording.read, "args", [None])[0]
-    for name in (f"{path}: ", f"{recording.file}: "):
-        text = text.removeprefix(name)
-    text = text.replace(str(path), recording.file) if path else text
+    for name in (str(recording.path), recording.file, recording.path.name) if recording.path else (recording.file,):
+        text = text.removeprefix(f"{name}: ").replace(name, "the file") if name else text
     return text.encode(errors="replace").decode()  # names of files may be no text
 
 
-def renamed(clip: Clip, name: str, source: int) -> Clip:
-    """The clip, or mirror image, of a recording that has another name and number now."""
-    name += MIRROR_SUFFIX if clip.mirrored else ""
-    if (clip.name, clip.source) == (name, source):
-        return clip
-    return replace(clip, motion=clip.motion.replace(name=name), name=name, source=source)
-
-
-def main_body(reads: Sequence[Read]) -> str:
-    """Digest of the skeleton that most seconds of motion are on; of equals the first."""
+def main_body(bodies: Sequence[tuple[str, float]]) -> str:
+    """Digest of the skeleton that most seconds of motion are on, of digests and seconds; of equals the first."""
     seconds: dict[str, float] = {}
-    for read in reads:
-        seconds[read.body] = seconds.get(read.body, 0.0) + read.seconds
+    for body, length in bodies:
+        seconds[body] = seconds.get(body, 0.0) + length
     return max(seconds, key=lambda body: round(seconds[body], 6))
 
 

@@ -6,9 +6,9 @@ from functools import partial
 from importlib.metadata import version
 
 from onbeat.examples import embedded_motions
-from onbeat.moves.build import Step
 from onbeat.moves.cache import build_from
 from onbeat.moves.library import MoveLibrary
+from onbeat.moves.making import Step
 
 TROUPE = 1  # to be raised when the troupe's dances change
 

@@ -51,19 +51,10 @@ class MotionGraph:
         before it and ``STRETCH`` + ``MARGIN`` after it. Joins in one clip that go back less than ``LOOP`` seconds or
         forward less than ``STRETCH`` are left out, and all but the ``FAN`` nearest from each frame.
         """
-        frames = len(clip_of)
-        after, before = _room(clip_of)
+        room = Room.of(clip_of)
         source, target = np.concatenate((first, second)), np.concatenate((second, first))
-        cost = np.concatenate((distance, distance)).astype(np.float32)
-        margin, stretch = round(MARGIN * GRID), round(STRETCH * GRID)
-        back, loop = source - target, round(LOOP * GRID)
-        near = (clip_of[source] == clip_of[target]) & (back > -stretch) & (back < loop)
-        keep = (after[source] >= margin) & (before[target] >= margin) & (after[target] >= stretch + margin) & ~near
-        source, target, cost = source[keep], target[keep], cost[keep]
-        order = np.lexsort((target, cost, source))
-        source, target, cost = source[order], target[order], cost[order]
-        rank = np.arange(len(source)) - np.searchsorted(source, source)
-        source, target, cost = source[rank < FAN], target[rank < FAN], cost[rank < FAN]
+        source, target, cost = room.joins(source, target, np.concatenate((distance, distance)).astype(np.float32))
+        frames = len(clip_of)
         indptr = np.concatenate(([0], np.cumsum(np.bincount(source, minlength=frames)))).astype(np.int64)
         return cls(np.asarray(clip_of, np.int64), indptr, target.astype(np.int64), cost)
 
@@ -105,9 +96,40 @@ class MotionGraph:
         return MotionGraph(self.clip_of, indptr, self.targets[inside], self.costs[inside])
 
 
-def _room(clip_of: Ints) -> tuple[Ints, Ints]:
-    """(N,) frames of the same clip after and before each frame."""
-    index = np.arange(len(clip_of))
-    starts = np.searchsorted(clip_of, clip_of, side="left")
-    ends = np.searchsorted(clip_of, clip_of, side="right")
-    return ends - 1 - index, index - starts
+@dataclass(frozen=True)
+class Room:
+    """Where joins may leave and enter.
+
+    Parameters
+    ----------
+    clip_of : (N,) the clip of each frame.
+    after, before : (N,) frames of the same clip after and before each frame.
+    """
+
+    clip_of: Ints
+    after: Ints
+    before: Ints
+
+    @classmethod
+    def of(cls, clip_of: Ints) -> Room:
+        """Counted in a row of clips."""
+        index = np.arange(len(clip_of))
+        starts = np.searchsorted(clip_of, clip_of, side="left")
+        ends = np.searchsorted(clip_of, clip_of, side="right")
+        return cls(clip_of, ends - 1 - index, index - starts)
+
+    def joins(self, source: Ints, target: Ints, cost: Float32) -> tuple[Ints, Ints, Float32]:
+        """Those of some joins that there is room for, at most ``FAN`` from a frame, in order of source and cost.
+
+        All joins from one frame are to be given together.
+        """
+        margin, stretch = round(MARGIN * GRID), round(STRETCH * GRID)
+        back, loop = source - target, round(LOOP * GRID)
+        near = (self.clip_of[source] == self.clip_of[target]) & (back > -stretch) & (back < loop)
+        room = (self.after[source] >= margin) & (self.before[target] >= margin)
+        keep = room & (self.after[target] >= stretch + margin) & ~near
+        source, target, cost = source[keep], target[keep], cost[keep]
+        order = np.lexsort((target, cost, source))
+        source, target, cost = source[order], target[order], cost[order]
+        rank = np.arange(len(source)) - np.searchsorted(source, source)
+        return source[rank < FAN], target[rank < FAN], cost[rank < FAN]

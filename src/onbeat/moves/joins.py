@@ -10,6 +10,8 @@ from onbeat._shapes import Array, Ints
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 
+LOOKED_AT = 100
+"""Clips up to which all joins of a library are looked at."""
 PART = 1 << 16  # joins whose links are compared at a time: 50 MB
 
 
@@ -40,6 +42,22 @@ def joins_table(library: MoveLibrary) -> Joins:
     parts = [slice(first, first + PART) for first in range(0, len(leave), PART)]
     error = np.concatenate([np.zeros(0), *(library.link_errors(leave[part], enter[part]) for part in parts)])
     return Joins(from_clip, from_s, to_clip, to_s, library.graph.costs.astype(np.float64), error)
+
+
+def mean_link_error(library: MoveLibrary) -> float | None:
+    """Degrees, mean of the joins' links; none where there is no join.
+
+    Of a great library only the joins between ``LOOKED_AT`` clips, evenly chosen, are looked at.
+    """
+    leave, enter = library.graph.sources, library.graph.targets
+    if len(library.clips) > LOOKED_AT:
+        chosen = np.zeros(len(library.clips), np.bool_)
+        chosen[np.linspace(0, len(chosen) - 1, LOOKED_AT).astype(np.int64)] = True
+        both = np.flatnonzero(chosen[library.graph.clip_of[leave]] & chosen[library.graph.clip_of[enter]])
+        leave, enter = leave[both], enter[both]
+    parts = [slice(first, first + PART) for first in range(0, len(leave), PART)]
+    errors = [library.link_errors(leave[part], enter[part]) for part in parts]
+    return float(np.concatenate(errors).mean()) if errors else None
 
 
 def _place(library: MoveLibrary, frames: Ints) -> tuple[tuple[str, ...], Array]:

@@ -1,9 +1,11 @@
 """A motion library: clips of one body, their features, and the motion graph that joins them."""
 
+# ruff: noqa: RUF009 - a Lazy default is a descriptor, made once for the class
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -13,10 +15,12 @@ from onbeat.errors import LibraryError
 from onbeat.keyposes.own import own_keyposes
 from onbeat.motion.body import Body
 from onbeat.motion.features import hand_features, intensity_component
-from onbeat.motion.links import link_directions, link_error
+from onbeat.motion.links import LINKS, link_directions, link_error
 from onbeat.motion.motion import Motion
 from onbeat.moves.graph import GRID, MARGIN, STRETCH, MotionGraph
+from onbeat.moves.lazy import Lazy
 from onbeat.moves.poses import pose_vectors
+from onbeat.moves.recordings import About
 from onbeat.moves.similarity import clip_pairs
 
 CLIP_RATE = 60.0
@@ -41,16 +45,30 @@ class Clip:
     intensity : (n,) Eq. 2 at each graph frame, m/s.
     poses : (n, D) pose vectors at each graph frame.
     keyposes : seconds of its keyposes by its own pulse; none where it keeps none.
+    length : frames and frames a second of the motion, told where they are to be known before it is read.
+    about : what is told of its recording.
     """
 
-    motion: Motion
-    name: str
-    source: int
-    mirrored: bool
-    stops: Times
-    intensity: Array
-    poses: Float32
-    keyposes: Times = field(default_factory=lambda: np.zeros(0))
+    motion: Lazy[Motion] = Lazy()
+    name: Lazy[str] = Lazy()
+    source: Lazy[int] = Lazy()
+    mirrored: Lazy[bool] = Lazy()
+    stops: Lazy[Times] = Lazy()
+    intensity: Lazy[Array] = Lazy()
+    poses: Lazy[Float32] = Lazy()
+    keyposes: Lazy[Times] = Lazy(lambda: np.zeros(0))
+    length: tuple[int, float] | None = None
+    about: About = About()
+
+    @property
+    def fps(self) -> float:
+        """Frames a second of the motion."""
+        return self.motion.fps if self.length is None else self.length[1]
+
+    @property
+    def seconds(self) -> float:
+        """How long the motion is."""
+        return self.motion.duration if self.length is None else self.length[0] / self.length[1]
 
     @classmethod
     def of(cls, motion: Motion, name: str = "", source: int = 0, *, mirrored: bool = False) -> Clip:
@@ -111,13 +129,26 @@ class MoveLibrary:
     @property
     def seconds(self) -> float:
         """How much motion there is, mirrored clips not counted."""
-        return sum(clip.motion.duration for clip in self.clips if not clip.mirrored)
+        return sum(clip.seconds for clip in self.clips if not clip.mirrored)
 
     def link_errors(self, leave: Ints, enter: Ints) -> Array:
-        """Mean link error in degrees between pairs of graph frames."""
-        links = self._links
-        return link_error(links[leave], links[enter])
+        """Mean link error in degrees between pairs of graph frames; only the clips they lie in are read."""
+        return link_error(self._links_at(leave), self._links_at(enter))
+
+    def _links_at(self, frames: Ints) -> Array:
+        """(n, 17, 3) link directions at graph frames."""
+        found = np.empty((len(frames), len(LINKS), 3))
+        clip_of = self.graph.clip_of[frames]
+        for clip in np.unique(clip_of).tolist():
+            here = np.flatnonzero(clip_of == clip)
+            found[here] = self._links_of(clip)[frames[here] - self.starts[clip]]
+        return found
+
+    def _links_of(self, clip: int) -> Array:
+        if clip not in self._links:
+            self._links[clip] = link_directions(self.clips[clip].motion.resampled(GRID))
+        return self._links[clip]
 
     @cached_property
-    def _links(self) -> Array:
-        return np.concatenate([link_directions(clip.motion.resampled(GRID)) for clip in self.clips])
+    def _links(self) -> dict[int, Array]:
+        return {}

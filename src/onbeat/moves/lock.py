@@ -18,6 +18,10 @@ class StorageError(LibraryError):
     """A folder in which no library can be kept now: it cannot be written, or another builder is at work there."""
 
 
+class BusyError(StorageError):
+    """Another builder is at work."""
+
+
 @contextmanager
 def building(folder: Path) -> Generator[None, None, None]:
     """Make a library's folder and hold its lock.
@@ -41,12 +45,13 @@ def building(folder: Path) -> Generator[None, None, None]:
             _lock(handle)
         except OSError:
             holder = os.read(handle, 20).decode(errors="replace").strip() or "another"
-            raise StorageError(
+            raise BusyError(
                 f"{folder} is being built by process {holder}; wait until it is done, or choose another folder"
             ) from None
-        os.ftruncate(handle, 0)
-        os.lseek(handle, 0, os.SEEK_SET)
-        os.write(handle, str(os.getpid()).encode())
+        with contextlib.suppress(OSError):  # a full disk: the number is for a message only
+            os.ftruncate(handle, 0)
+            os.lseek(handle, 0, os.SEEK_SET)
+            os.write(handle, str(os.getpid()).encode())
         yield
     except BaseException:
         if new and [path.name for path in folder.iterdir()] == [LOCK]:

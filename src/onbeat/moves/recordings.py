@@ -7,15 +7,25 @@ import hashlib
 import os
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from onbeat.errors import FormatError, LibraryError
 from onbeat.formats.asfamc import skeleton_file
 from onbeat.formats.read import motion_files, read_motion
 from onbeat.motion.motion import Motion
 from onbeat.motion.role_file import roles_beside
+
+
+class About(NamedTuple):
+    """What is told of a recording, where it is: who dances, what, and under which licence it may be used."""
+
+    performer: str | None = None
+    genre: str | None = None
+    licence: str | None = None
 
 
 @dataclass(frozen=True)
@@ -28,12 +38,25 @@ class Recording:
     file : where it was found, relative to the folder that was given.
     digest : SHA-256 of its content (with its skeleton and roles files'), so that what changed is known unread.
     read : reads it.
+    path : where it lies; nowhere if a program made it.
+    about : what is told of it.
     """
 
     name: str
     file: str
     digest: str
-    read: Callable[[], Motion]
+    read: Callable[[], Motion] = field(compare=False)
+    path: Path | None = field(default=None, compare=False)
+    about: About = field(default=About(), compare=False)
+
+    @property
+    def content(self) -> str:
+        """What a reading of it depends on: its digest and the kind of file; nothing ("") if it cannot be read."""
+        return self.digest and self.digest + Path(self.file).suffix.lower()
+
+    def has_changed(self) -> bool:
+        """Whether its content is no longer what it was when it was found."""
+        return self.path is not None and content_digest(self.path) != self.digest
 
 
 def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Recording]:
@@ -57,9 +80,12 @@ def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Rec
         places = ", ".join(str(path) for path in paths) or "no path"
         raise LibraryError(f"no motion files in {places}; give a folder of motion files (docs/files.md)")
     files = list(found.values())
+    with ThreadPoolExecutor(4) as pool:  # most of the time is spent waiting for the disk
+        digests = list(pool.map(content_digest, (file for file, _ in files)))
+    names = _names([label for _, label in files])
     return [
-        Recording(name, label, content_digest(file), partial(read_motion, file, fps))
-        for (file, label), name in zip(files, _names([label for _, label in files]), strict=True)
+        Recording(name, label, digest, partial(read_motion, file, fps), file)
+        for (file, label), name, digest in zip(files, names, digests, strict=True)
     ]
 
 

@@ -1,56 +1,55 @@
-"""A library on disk: a manifest and arrays that are mapped into memory.
+"""A library on disk, opened: its clips are read when they are asked for.
 
-The arrays lie in a sub-folder named by their content. It is written first, the manifest is renamed into place after
-it, and older sub-folders go last: a reader sees the old library or the new one, and a build that was stopped leaves the
-old one as it was. Nothing is ever unpickled.
+A reader holds what it mapped, so it is not disturbed by a builder: it sees the library as of the moment it was opened.
+docs/library.md tells what lies where.
 """
 
 from __future__ import annotations
 
-import hashlib
-import io
 import os
-import shutil
-import tempfile
-from collections.abc import Mapping, Sequence
+import sqlite3
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
-from onbeat._shapes import Float32, Ints
-from onbeat.errors import FormatError, LibraryError, OnbeatError
-from onbeat.files import write_atomically
-from onbeat.motion.motion import Motion
-from onbeat.moves import manifest as documents
+from onbeat._shapes import Ints
+from onbeat.errors import LibraryError
+from onbeat.moves.bodies import skeleton_of
+from onbeat.moves.clips import MIRROR_SUFFIX
+from onbeat.moves.generations import Generation, notes_of, read_generation, rows_of
 from onbeat.moves.graph import MotionGraph
+from onbeat.moves.graph_files import open_graph
+from onbeat.moves.index import FORMER, INDEX, reading
+from onbeat.moves.layout import Label, stored_clip
 from onbeat.moves.library import Clip, MoveLibrary
-from onbeat.moves.lock import StorageError
-from onbeat.moves.manifest import Manifest
+from onbeat.moves.recordings import About
+from onbeat.moves.shards import DiskShards, Shards
+from onbeat.moves.stock import SHARDS, Row
 
-MANIFEST = "library.json"
-_DATA = "data-"
-_NAMES = (
-    "rotations",
-    "root_positions",
-    "stops",
-    "keyposes",
-    "intensity",
-    "poses",
-    "first",
-    "second",
-    "distance",
-    "indptr",
-    "targets",
-    "costs",
-)
-Arrays = Mapping[str, np.ndarray]
-Pairs = tuple[Ints, Ints, Float32]
+
+class Stored(NamedTuple):
+    """What the index says of a library: the generation, the rows of its clips, and what was assumed."""
+
+    generation: Generation
+    rows: list[Row]
+    notes: list[str]
+
+    @classmethod
+    def of(cls, index: sqlite3.Connection) -> Stored | None:
+        """All of it; nothing before the first build is done."""
+        generation = read_generation(index)
+        return None if generation is None else cls(generation, rows_of(index, generation), notes_of(index, generation))
+
+    @property
+    def clip_of(self) -> Ints:
+        """(N,) the clip of each graph frame."""
+        return np.repeat(np.arange(len(self.rows)), [row.shape.poses for row in self.rows])
 
 
 def is_library(folder: Path) -> bool:
-    """Whether a folder holds a library."""
-    return (folder / MANIFEST).is_file()
+    """Whether a folder holds a library, be it of a former version."""
+    return (folder / INDEX).is_file() or (folder / FORMER).is_file()
 
 
 def open_library(folder: str | os.PathLike[str]) -> MoveLibrary:
@@ -61,182 +60,65 @@ def open_library(folder: str | os.PathLike[str]) -> MoveLibrary:
     LibraryError
         If there is none, or it is damaged or of another version: then it is to be built again.
     """
-    found, arrays = read_stored(Path(folder))
-    return library_from(found, arrays)
-
-
-def read_manifest(folder: Path) -> Manifest:
-    """The manifest of a library's folder."""
-    path = folder / MANIFEST
+    place = Path(folder)
+    stored = read_stored(place)
     try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise LibraryError(f"no library in {folder}; build one with `onbeat moves build FOLDER -o {folder}`") from None
-    except OSError as error:
-        raise LibraryError(f"cannot read {path}: {error.strerror or error}") from None
-    return documents.decode(data, str(path))
-
-
-def read_stored(folder: Path) -> tuple[Manifest, Arrays]:
-    """Manifest and arrays, checked against each other; read again where a builder has just replaced them."""
-    found = read_manifest(folder)
-    try:
-        return found, _mapped(folder, found)
+        return _opened(place, stored)
     except LibraryError:
-        newer = read_manifest(folder)
-        if newer.data == found.data:
+        newer = read_stored(place)  # a builder may just have replaced it
+        if newer.generation.content == stored.generation.content:
             raise
-        return newer, _mapped(folder, newer)
+        return _opened(place, newer)
 
 
-def _mapped(folder: Path, found: Manifest) -> Arrays:
-    arrays: dict[str, np.ndarray] = {}
-    for name in _NAMES:
-        path = folder / found.data / f"{name}.npy"
-        try:
-            # not `mmap_mode` of an empty array, which cannot be mapped
-            arrays[name] = np.asarray(np.load(path, mmap_mode="r" if path.stat().st_size > 4096 else None))
-        except (OSError, ValueError, EOFError) as error:
-            raise LibraryError(f"{path} is missing or damaged ({error}); build the library again") from None
-    _check(folder, found, arrays)
-    return arrays
+def read_stored(folder: Path) -> Stored:
+    """What the index of a library's folder says."""
+    if not (folder / INDEX).is_file():
+        if (folder / FORMER).is_file():
+            raise LibraryError(f"{folder} holds a library of a former version; build the library again")
+        raise LibraryError(f"no library in {folder}; build one with `onbeat moves build FOLDER -o {folder}`")
+    with reading(folder / INDEX) as index:
+        if (stored := Stored.of(index)) is None:
+            raise LibraryError(f"the library in {folder} was not built to the end; run the same build again")
+        return stored
 
 
-def _check(folder: Path, found: Manifest, arrays: Arrays) -> None:
-    joints, clips = len(found.skeleton.names), found.clips
-    frames, poses = sum(clip.frames for clip in clips), sum(clip.poses for clip in clips)
-    pairs, joins = len(arrays["first"]), len(arrays["targets"])
-    expected: dict[str, tuple[str, tuple[int, ...]]] = {
-        "rotations": ("f8", (frames, joints, 4)),
-        "root_positions": ("f8", (frames, 3)),
-        "stops": ("f8", (sum(clip.stops for clip in clips),)),
-        "keyposes": ("f8", (sum(clip.keyposes for clip in clips),)),
-        "intensity": ("f8", (poses,)),
-        "poses": ("f4", (poses, arrays["poses"].shape[-1])),
-        "first": ("i8", (pairs,)),
-        "second": ("i8", (pairs,)),
-        "distance": ("f4", (pairs,)),
-        "indptr": ("i8", (poses + 1,)),
-        "targets": ("i8", (joins,)),
-        "costs": ("f4", (joins,)),
-    }
-    for name, (kind, shape) in expected.items():
-        array = arrays[name]
-        if array.shape != shape or array.dtype != np.dtype(kind):
-            raise LibraryError(
-                f"{folder / found.data / name}.npy holds {array.dtype} {array.shape}, {np.dtype(kind)} {shape} is "
-                "expected; build the library again"
-            )
-    if arrays["indptr"][-1] != joins or (joins and not 0 <= arrays["targets"].min() <= arrays["targets"].max() < poses):
-        raise LibraryError(f"{folder / found.data}: joins lead to frames that are not there; build the library again")
+def _opened(folder: Path, stored: Stored) -> MoveLibrary:
+    shards = DiskShards(folder / SHARDS, "clips")
+    last = {row.span.shard: row.span for row in sorted(stored.rows, key=lambda row: row.span.offset + row.span.size)}
+    for span in last.values():
+        shards.read(span)  # maps each file: no place in it is beyond its end
+    return library_of(stored, shards, open_graph(folder, stored.generation.graph, stored.clip_of))
 
 
-def library_from(found: Manifest, arrays: Arrays) -> MoveLibrary:
-    """The library that manifest and arrays describe."""
-    clips = stored_clips(found, arrays)
-    clip_of = np.repeat(np.arange(len(clips)), [clip.poses for clip in found.clips])
-    graph = MotionGraph(clip_of, *(np.array(arrays[name]) for name in ("indptr", "targets", "costs")))
-    return MoveLibrary(
-        tuple(clips), graph, tuple(f"{p.file}: {p.reason}" for p in found.problems), tuple(notes_of(found))
-    )
+def library_of(stored: Stored, shards: Shards, graph: MotionGraph) -> MoveLibrary:
+    """The library that an index describes."""
+    entries = stored.generation.entries
+    problems = tuple(f"{entry.file}: {entry.problem}" for entry in entries if entry.problem is not None)
+    return MoveLibrary(tuple(_clips(stored, shards)), graph, problems, tuple(stored.notes))
 
 
-def notes_of(found: Manifest) -> list[str]:
-    """What readers warned of, each warning once with the number of files."""
-    files: dict[str, list[str]] = {}
-    for clip in found.clips:
-        for note in clip.notes if not clip.mirrored else []:
-            files.setdefault(note, []).append(clip.file)
-    return [f"{names[0] if len(names) == 1 else f'{len(names)} files'}: {note}" for note, names in files.items()]
-
-
-def stored_clips(found: Manifest, arrays: Arrays) -> list[Clip]:
-    """The clips of a library, in order; a ``LibraryError`` says if they are damaged."""
-    try:
-        return _clips(found, arrays)
-    except FormatError as error:
-        raise LibraryError(f"the library is damaged ({error}); build it again") from None
-
-
-def _clips(found: Manifest, arrays: Arrays) -> list[Clip]:
-    skeleton = found.skeleton.skeleton()
+def _clips(stored: Stored, shards: Shards) -> list[Clip]:
+    skeleton = skeleton_of(stored.generation.skeleton)
+    sources = _sources(stored.generation)
     clips: list[Clip] = []
-    frame = pose = stop = key = 0
-    for row in found.clips:
-        moves, steps = slice(frame, frame + row.frames), slice(pose, pose + row.poses)
-        motion = Motion(skeleton, arrays["rotations"][moves], arrays["root_positions"][moves], row.fps, row.name)
-        stops = arrays["stops"][stop : stop + row.stops]
-        keyposes = arrays["keyposes"][key : key + row.keyposes]
-        intensity, poses = arrays["intensity"][steps], arrays["poses"][steps]
-        clips.append(Clip(motion, row.name, row.source, row.mirrored, stops, intensity, poses, keyposes))
-        frame, pose, stop, key = frame + row.frames, pose + row.poses, stop + row.stops, key + row.keyposes
+    originals: dict[int, Clip] = {}
+    for (number, _), row in zip(stored.generation.members, stored.rows, strict=True):
+        entry = stored.generation.entries[number]
+        name = entry.name
+        if row.shape.joints != len(skeleton):
+            raise LibraryError(f"the library is damaged ({name} has {row.shape.joints} joints); build it again")
+        original = originals.get(number) if row.shape.mirrored else None
+        if row.shape.mirrored and original is None:
+            raise LibraryError(f"the library is damaged ({name} has no original); build the library again")
+        name += MIRROR_SUFFIX if row.shape.mirrored else ""
+        label = Label(name, sources[number], About(entry.performer, entry.genre, entry.licence))
+        clip = stored_clip(shards, row.span, row.shape, skeleton, label, original)
+        originals[number] = originals.get(number, clip)
+        clips.append(clip)
     return clips
 
 
-def arrays_of(clips: Sequence[Clip], pairs: Pairs, graph: MotionGraph) -> dict[str, np.ndarray]:
-    """The arrays of a library that is to be stored."""
-    first, second, distance = pairs
-    parts: dict[str, Any] = {
-        "rotations": np.concatenate([clip.motion.rotations for clip in clips]),
-        "root_positions": np.concatenate([clip.motion.root_positions for clip in clips]),
-        "stops": np.concatenate([clip.stops for clip in clips]).astype(np.float64),
-        "keyposes": np.concatenate([clip.keyposes for clip in clips]).astype(np.float64),
-        "intensity": np.concatenate([clip.intensity for clip in clips]),
-        "poses": np.concatenate([clip.poses for clip in clips]),
-        "first": first,
-        "second": second,
-        "distance": distance,
-        "indptr": graph.indptr,
-        "targets": graph.targets,
-        "costs": graph.costs,
-    }
-    return parts
-
-
-def content_name(arrays: Arrays) -> str:
-    """The name of the sub-folder of these arrays."""
-    total = hashlib.sha256()
-    for name in _NAMES:
-        total.update(f"{name} {arrays[name].dtype.str} {arrays[name].shape}".encode())
-        total.update(np.ascontiguousarray(arrays[name]).data)
-    return _DATA + total.hexdigest()[:16]
-
-
-def write_library(folder: Path, found: Manifest, arrays: Arrays) -> None:
-    """Put a library into place; to be called with the folder's lock held."""
-    try:
-        if not _is_there(folder, found):
-            _write_arrays(folder / found.data, arrays)
-        write_atomically(folder / MANIFEST, documents.encode(found))
-    except OSError as error:
-        raise StorageError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
-    except OnbeatError as error:
-        raise StorageError(str(error)) from None
-    for old in folder.iterdir():
-        stale = old.name.startswith((_DATA, f".{_DATA}")) and old.name != found.data
-        if stale and old.is_dir() and not old.is_symlink():
-            shutil.rmtree(old, ignore_errors=True)
-
-
-def _is_there(folder: Path, found: Manifest) -> bool:
-    """Whether the arrays are there already, whole: then they are left alone, for somebody may be reading them."""
-    try:
-        return content_name(_mapped(folder, found)) == found.data
-    except LibraryError:
-        return False
-
-
-def _write_arrays(target: Path, arrays: Arrays) -> None:
-    """Write the sub-folder whole or not at all; a damaged one that is there is replaced."""
-    temporary = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
-    try:
-        os.chmod(temporary, 0o755)
-        for name in _NAMES:
-            buffer = io.BytesIO()
-            np.lib.format.write_array(buffer, np.ascontiguousarray(arrays[name]), allow_pickle=False)
-            (temporary / f"{name}.npy").write_bytes(buffer.getbuffer())
-        if target.exists():
-            shutil.rmtree(target)
-        os.rename(temporary, target)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+def _sources(generation: Generation) -> dict[int, int]:
+    """For each recording that clips were made of, which it is among these."""
+    return {number: source for source, number in enumerate(dict.fromkeys(n for n, _ in generation.members))}

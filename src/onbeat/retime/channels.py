@@ -52,7 +52,9 @@ class Turning:
         7.0
         """
         rotations = motion.rotations[:, list(joints)]
-        means = np.stack([mean_rotation(rotations[:, k]) for k in range(len(joints))]) if len(joints) else np.zeros((0, 4))
+        means = (
+            np.stack([mean_rotation(rotations[:, k]) for k in range(len(joints))]) if len(joints) else np.zeros((0, 4))
+        )
         vectors = rot.log(rot.multiply(rot.inverse(means), rotations))
         for k in np.flatnonzero(whole_turns(vectors[1:], vectors[:-1]).any(axis=0)).tolist():
             vectors[:, k] = unwrapped(vectors[:, k])

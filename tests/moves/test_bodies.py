@@ -1,9 +1,11 @@
-"""The manifest's skeleton keeps what is told of its joints."""
+"""A stored skeleton keeps what is told of its joints."""
 
 import msgspec
+import pytest
 
+from onbeat.errors import LibraryError
+from onbeat.moves.bodies import Body, skeleton_of, skeleton_text
 from onbeat.moves.clips import skeleton_digest
-from onbeat.moves.manifest import Body
 from onbeat.moves.recordings import content_digest, motion_digest
 from persons import person, swinging
 
@@ -30,3 +32,9 @@ def test_what_is_told_changes_the_digests(tmp_path):
     before = content_digest(file)
     (tmp_path / "roles.toml").write_text("[joints]")
     assert content_digest(file) != before
+
+
+@pytest.mark.parametrize("damage", [lambda text: text[:50], lambda text: text.replace("[-1", "[7"), lambda text: "{}"])
+def test_a_damaged_skeleton_is_told(damage):
+    with pytest.raises(LibraryError, match="skeleton is damaged"):
+        skeleton_of(damage(skeleton_text(person())))

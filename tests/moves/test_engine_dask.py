@@ -1,0 +1,185 @@
+"""A cluster gives what threads give, byte for byte, whoever dies and whatever its workers can see."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import made_tasks as made
+from onbeat.errors import LibraryError, OnbeatError
+from onbeat.moves import engine_cluster, engine_dask
+from onbeat.moves.engine import Engine, EngineError, Parts, run
+
+pytest.importorskip("distributed", reason="a cluster needs the extra [scale]")
+
+BEGIN = "import sys; from distributed.cli.dask_{0} import main; sys.argv[0] = 'dask-{0}'; main()"
+
+
+@contextmanager
+def started(kind: str, *options: str) -> Iterator[subprocess.Popen[bytes]]:
+    """A scheduler or a worker, in a process of its own."""
+    here = os.pathsep.join([str(Path(made.__file__).parent), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    environment = {**os.environ, "PYTHONPATH": here, "OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, "-c", BEGIN.format(kind), *options, "--host", "127.0.0.1", "--no-dashboard"]
+    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=environment)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+
+
+class Cluster:
+    """A scheduler and its workers."""
+
+    def __init__(self, address: str, folder: Path) -> None:
+        self.address, self.folder = address, folder
+        self.engine = Engine.of(address)
+
+    def worker(self) -> Any:
+        """One more worker."""
+        options = ["--nthreads", "1", "--no-nanny", "--local-directory", str(self.folder)]
+        return started("worker", self.address, *options)
+
+
+@contextmanager
+def scheduled(folder: Path) -> Iterator[Cluster]:
+    """A scheduler without workers."""
+    card = folder / "scheduler.json"
+    with started("scheduler", "--port", "0", "--scheduler-file", str(card)) as scheduler:
+        while not (card.exists() and card.stat().st_size):
+            assert scheduler.poll() is None, "the scheduler did not start"
+            time.sleep(0.05)
+        yield Cluster(json.loads(card.read_text())["address"], folder)
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A scheduler and two workers."""
+    with scheduled(tmp_path_factory.mktemp("cluster")) as found, found.worker(), found.worker():
+        yield found
+
+
+def results(engine: Engine, groups: int = 6, parts: Parts[Any] = made.PARTS) -> dict[Any, bytes]:
+    found: dict[Any, bytes] = {}
+    run(
+        made.blocks(groups), made.product, lambda block, it: found.__setitem__(block, it.tobytes()), engine, parts=parts
+    )
+    return found
+
+
+def test_a_cluster_gives_the_bytes_of_threads_and_parts_go_to_workers_once(cluster: Cluster):
+    calls: list[int] = []
+
+    def get(number: int) -> np.ndarray:
+        calls.append(number)
+        return made.group(number)
+
+    # no folder: nothing can be read over there, and a function of a function is not even sent
+    assert results(cluster.engine, parts=Parts(lambda block: block, get)) == results(Engine())
+    assert sorted(calls) == list(range(6))
+
+
+def test_workers_that_see_the_folder_read_it_themselves(cluster: Cluster, tmp_path: Path):
+    path = tmp_path / "groups.npy"
+    np.save(path, np.array([made.group(number) for number in range(6)]))
+    places = Parts[made.Block](
+        lambda block: [(str(path), number) for number in block], made.stored_group, folder=tmp_path
+    )
+    assert results(cluster.engine, parts=places) == results(Engine())
+    readers = path.with_suffix(".readers").read_text().split()
+    assert str(os.getpid()) not in readers
+    assert len(readers) <= 2 * 6, "each reads a part once"
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["groups.npy", "groups.readers"]
+
+
+def test_workers_that_do_not_see_the_folder_are_sent_parts(
+    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    elsewhere = str(tmp_path / "on another machine" / ".run-1")
+    monkeypatch.setattr(engine_dask, "marked", lambda folder: elsewhere)
+    path = tmp_path / "groups.npy"
+    np.save(path, np.array([made.group(number) for number in range(6)]))
+    places = Parts[made.Block](lambda block: [(str(path), n) for n in block], made.stored_group, folder=tmp_path)
+    assert results(cluster.engine, parts=places) == results(Engine())
+    assert path.with_suffix(".readers").read_text().split() == 6 * [str(os.getpid())]
+
+
+def test_a_worker_killed_midway_loses_nothing(cluster: Cluster):
+    found: dict[Any, bytes] = {}
+    with cluster.worker() as third, cluster.engine.crew() as crew:
+
+        def done(block: made.Block, result: np.ndarray) -> None:
+            assert block not in found
+            found[block] = result.tobytes()
+            if len(found) == 15:
+                third.send_signal(signal.SIGKILL)
+
+        crew.run(made.blocks(9), made.slow_product, done, parts=made.PARTS)
+    assert found == results(Engine(), 9)
+
+
+def test_errors_come_back_from_a_cluster(cluster: Cluster):
+    good: dict[int, int] = {}
+    bad: dict[int, OnbeatError] = {}
+    with cluster.engine.crew() as crew:
+        crew.run(range(6), made.broken_or_not, good.__setitem__, failed=bad.__setitem__)
+        assert sorted(good) == [0, 1, 2, 4, 5]
+        assert isinstance(bad[3], LibraryError)
+        with pytest.raises(KeyError, match="seven") as caught:
+            crew.run([7], made.broken_or_not, good.__setitem__)
+    assert "in the task 7" in caught.value.__notes__[0]
+
+
+def test_many_small_tasks_go_together(cluster: Cluster):
+    found: dict[int, int] = {}
+    with cluster.engine.crew() as crew:
+        begin = time.monotonic()
+        crew.run(range(-2000, 0), abs, found.__setitem__)
+        each = (time.monotonic() - begin) / 2000
+    assert found == {task: -task for task in range(-2000, 0)}
+    assert each < 0.005, "one message each would cost more, on any machine"
+
+
+def test_workers_of_another_version_are_refused(cluster: Cluster, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(engine_cluster, "_ours", lambda: "onbeat 9.9 (0123) with numpy 2")
+    with pytest.raises(EngineError, match=r"^the worker tcp://.* has onbeat .*, this machine onbeat 9\.9 .* install"):
+        cluster.engine.crew()
+
+
+def test_a_worker_of_another_version_that_comes_later_is_refused(cluster: Cluster, monkeypatch: pytest.MonkeyPatch):
+    with cluster.engine.crew() as crew:
+        monkeypatch.setattr(engine_dask, "identity", lambda: "onbeat 9.9 (0123) with numpy 2")
+        with pytest.raises(EngineError, match=r"a worker has onbeat .*, this machine onbeat 9\.9"):
+            crew.run([1], abs, lambda *_: None)
+
+
+def test_no_scheduler_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(engine_cluster, "CONNECT", 0.5)
+    with pytest.raises(EngineError, match=r"^no scheduler answers at tcp://127\.0\.0\.1:1 .* start one .*$") as caught:
+        Engine.of("tcp://127.0.0.1:1").crew()
+    assert "\n" not in str(caught.value)
+
+
+def test_a_cluster_that_loses_everything_is_told_and_does_not_hang(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(engine_cluster, "PATIENCE", 1.0)
+    monkeypatch.setattr(engine_dask, "PATIENCE", 1.0)
+    monkeypatch.setattr(engine_dask, "LOOK", 0.3)
+    monkeypatch.setattr(engine_dask, "FETCH", 1.0)
+    with scheduled(tmp_path) as lonely:
+        with pytest.raises(EngineError, match="no worker"):
+            lonely.engine.crew()
+        monkeypatch.setattr(engine_cluster, "PATIENCE", 30.0)
+        with lonely.worker() as worker, pytest.raises(EngineError, match="no worker"):
+            run(range(500), made.who, lambda *_: worker.kill(), lonely.engine)

@@ -1,0 +1,47 @@
+"""What was made by other code is known by the digest of all code that it depends on."""
+
+import ast
+import fnmatch
+from pathlib import Path
+
+import pytest
+
+from onbeat.moves import methods
+
+ROOT = Path(methods.__file__).parents[1]
+# what decides nothing of what is made: containers, transport, and what is told of recordings
+NEUTRAL = {
+    *("moves/engine*.py", "moves/index.py", "moves/lock.py", "moves/methods.py", "moves/shards.py", "moves/stock.py"),
+    *("moves/bodies.py", "moves/compact.py", "moves/generations.py", "moves/graph_files.py", "moves/sweep.py"),
+}
+
+
+def reached(file: Path, found: set[Path]) -> set[Path]:
+    """A module and all of the rooms that are looked at which it imports."""
+    found.add(file)
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(("onbeat.moves.", "onbeat.motion.")):
+            other = ROOT.joinpath(*node.module.split(".")[1:]).with_suffix(".py")
+            if other.exists() and other not in found:
+                reached(other, found)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("module", "names"),
+    [
+        ("placing", ("_READING", "_JOINING")),
+        ("similarity", ("_JOINING",)),
+        ("publish", ("_READING", "_JOINING", "_REST")),
+    ],
+)
+def test_every_module_that_is_used_is_in_the_digest(module, names):
+    listed = {pattern for name in names for pattern in getattr(methods, name)} | NEUTRAL
+    files = {path.relative_to(ROOT).as_posix() for path in reached(ROOT / "moves" / f"{module}.py", set())}
+    missing = {file for file in files if not any(fnmatch.fnmatch(file, pattern) for pattern in listed)}
+    assert not missing
+
+
+def test_every_pattern_names_a_file():
+    for pattern in (*methods._READING, *methods._JOINING, *methods._REST):
+        assert list(ROOT.glob(pattern)), pattern
