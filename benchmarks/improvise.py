@@ -26,7 +26,7 @@ from onbeat._shapes import Array, Ints, Times
 from onbeat.dance.greedy import greedy_path
 from onbeat.dance.optimal import Path as DancePath
 from onbeat.dance.optimal import Problem, ValueToGo, best_path, score_path
-from onbeat.dance.score import FINE, INTENSITY, score_music
+from onbeat.dance.score import INTENSITY, score_music
 from onbeat.dance.search import make_problem
 from onbeat.dance.variety import beam_path
 from onbeat.dance.walk import random_walk
@@ -37,6 +37,7 @@ from onbeat.moves.embedded import embedded_library
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
+from search import planned_stops
 
 KNOWN, CHOSEN = 2.6, 2.0
 COLUMNS = ("F100", "F50", "of optimum", "stops/beats", "unique s", "again 30", "joins/min", "ms/s")
@@ -129,29 +130,6 @@ def shown(problem: Problem, path: DancePath) -> Ints:
     ends = [*path.times[1:].tolist(), problem.music.frames]
     runs = [f + np.arange(e - t) for t, f, e in zip(path.times.tolist(), path.entries.tolist(), ends, strict=True)]
     return problem.frames.base[np.concatenate(runs)]
-
-
-def planned_stops(problem: Problem, path: DancePath) -> Times:
-    """Seconds of the stops of the clips, with those that joins make and without those that they unmake."""
-    laid, stops = problem.frames, set[int]()
-    ends = [*path.times[1:].tolist(), problem.music.frames]
-    for t, f, e in zip(path.times.tolist(), path.entries.tolist(), ends, strict=True):
-        run = f + np.arange(e - t)
-        at = np.flatnonzero(laid.stop_worth[run] > 0)
-        stops |= set(((t + at) * FINE + laid.stop_shift[run[at]]).tolist())
-    indptr, when, sign = problem.changes
-    for k in range(1, len(path.times)):
-        t, leave = int(path.times[k]), int(path.entries[k - 1] + path.times[k] - path.times[k - 1])
-        node, target = int(laid.base[leave]), int(laid.base[path.entries[k]])
-        row = np.arange(problem.graph.indptr[node], problem.graph.indptr[node + 1])
-        join = row[np.argmin(np.abs(problem.graph.targets[row] - target))]
-        for c in range(int(indptr[join]), int(indptr[join + 1])):
-            instant = t * FINE + int(when[c])
-            if sign[c] > 0:
-                stops.add(instant)
-            elif stops:
-                stops.discard(min(stops, key=lambda other: abs(other - instant)))
-    return np.array(sorted(stops)) / (GRID * FINE)
 
 
 def again(frames: Ints, within: float) -> float:
