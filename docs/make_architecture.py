@@ -11,8 +11,9 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "ARCHITECTURE.md"
 SOURCE = ROOT / "src" / "onbeat"
 ROOMS = (
-    "motion", "music", "capture", "limits", "formats", "keyposes", "retime", "metrics", "examples", "moves",
-    "recognition", "robots", "dance", "viewer", "live", "cli",
+    "motion", "music", "fetch", "capture", "limits", "formats", "keyposes", "retime", "metrics", "examples", "moves",
+    "recognition", "robots", "dance", "viewer", "live", "studio", "reproduce",
+    "cli",
 )  # fmt: skip
 """In the order of the floors."""
 BEGIN, END = "<!-- modules: written by docs/make_architecture.py -->\n", "<!-- end of modules -->\n"

@@ -19,13 +19,14 @@ FILES = sorted(SOURCE.rglob("*.py"))
 
 FLOORS = (
     {"errors", "_shapes", "files", "quadratic"},
-    {"motion", "music"},
+    {"motion", "music", "fetch"},
     {"capture", "limits"},
     {"formats", "keyposes", "retime", "metrics", "examples"},
     {"moves", "recognition", "robots"},
     {"dance"},
     {"viewer"},
     {"live"},
+    {"studio", "reproduce"},
     {"cli"},
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
