@@ -69,7 +69,7 @@ def candidates(
     eights = marks.view(np.uint64)
     for i in range(rows[0], rows[1]):
         _tops(one.reach[i], two.reach[left : left + width], unit, limit, care, tops)
-        _mark(table, i, rows, columns, tops, np.float32(care.neighbours / unit), marks)
+        mark_low(table, i, rows, columns, tops, np.float32(care.neighbours / unit), marks)
         if count + width > len(first):
             first, second, spot, guess = more(first, width), more(second, width), more(spot, width), more(guess, width)
         for eight in range(len(eights)):
@@ -96,7 +96,7 @@ def _tops(reach: float, others: Float32, unit: float, limit: float, care: Care, 
 
 
 @njit(cache=True, nogil=True)
-def _mark(
+def mark_low(
     table: Float32, i: int, rows: Range, columns: Range, tops: Float32, slack: np.float32, marks: np.ndarray
 ) -> None:
     """Mark the cells of a row that are low enough, and low among their four neighbours of the same clips."""

@@ -1,7 +1,7 @@
 """Minima from coarse to fine: cells that may hold one are found in the table of cells, and only they are looked into.
 
 Where only the smoothest pairs of two clips are wanted, cells are taken in the order of their guesses, no further than
-what is wanted reaches; where few are wanted, only the nearest cells are tried first, and often are enough.
+what is wanted reaches; how far that may be is told first, from the cells alone.
 """
 
 from __future__ import annotations
@@ -13,14 +13,13 @@ from onbeat._shapes import Float32, Ints
 from onbeat.moves.blocks import Group, Pairs
 from onbeat.moves.candidates import Candidates, Care, Range, candidates
 from onbeat.moves.cells import CELL, Cells, cell_table, cells_of
-from onbeat.moves.inside import minima_inside, rough
+from onbeat.moves.inside import FAST, Around, around, minima_inside, rough
 from onbeat.moves.minima import Found, more
+from onbeat.moves.wanted import wanted_limit
 
 # In shares of the limit's square; found on two archives (benchmarks/transitions.py tells what is missed).
 COARSE = Care(above=0.6, still=0.3, moving=1.0, guess=0.2, neighbours=1.1, probe=0.15)
 APPROXIMATE = Care(above=0.45, still=0.08, moving=1.0, guess=0.12, neighbours=0.5, probe=0.05)
-FEW = 64  # pairs of two clips: fewer than these are looked for among nearer cells first
-SHARES, ALL = (0.12, 0.35, 1.0), (1.0, 1.0, 1.0)  # of the limit's square
 BINS = 64  # steps in which candidates are ordered by their guess
 
 
@@ -33,7 +32,7 @@ def cell_pairs(a: Group, b: Group, limit: float, care: Care, density: float, nea
     quotas = _quotas(a, b, density)
     square = limit * limit
     first, second, value = _block(
-        table, a.poses, b.poses, one, two, quotas, quantum**2, square, care.of(square), near, a is b
+        table, a.poses, b.poses, one, two, quotas, quantum**2, square, care.of(square), around(near), a is b
     )
     return Pairs.joined([Pairs(first, second, np.sqrt(value).astype(np.float32))])
 
@@ -50,7 +49,7 @@ def _quotas(a: Group, b: Group, density: float) -> np.ndarray:
 @njit(cache=True, nogil=True)
 def _block(
     table: Float32, a: Float32, b: Float32, one: Cells, two: Cells, quotas: np.ndarray, unit: float, limit: float,
-    care: Care, near: int, same: bool,
+    care: Care, wide: Around, same: bool,
 ) -> Found:  # fmt: skip
     """The minima of all pairs of clips of two groups."""
     first, second, value = np.empty(1024, np.int64), np.empty(1024, np.int64), np.empty(1024, np.float64)
@@ -61,7 +60,7 @@ def _block(
             if rows[1] == rows[0] or columns[1] == columns[0]:
                 continue
             upper = same and k == m
-            found = _clips(table, a, b, one, two, rows, columns, quotas[k, m], unit, limit, care, near, upper)
+            found = _clips(table, a, b, one, two, rows, columns, quotas[k, m], unit, limit, care, wide, upper)
             size = len(found[0])
             if count + size > len(first):
                 first, second, value = more(first, size), more(second, size), more(value, size)
@@ -74,28 +73,29 @@ def _block(
 @njit(cache=True, nogil=True)
 def _clips(
     table: Float32, a: Float32, b: Float32, one: Cells, two: Cells, rows: Range, columns: Range, quota: float,
-    unit: float, limit: float, care: Care, near: int, upper: bool,
+    unit: float, limit: float, care: Care, wide: Around, upper: bool,
 ) -> Found:  # fmt: skip
     """The minima of two clips, or the smoothest ``quota`` at least."""
-    found = np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0, np.float64)
-    for share in SHARES if quota < FEW else ALL:
-        picked = candidates(table, one, two, rows, columns, unit, share * limit, care, upper)
-        found, enough = _look(a, b, one, two, picked, quota, share * limit, care, near, upper)
-        if enough or share == 1.0:
-            break
+    first = wanted_limit(table, rows, columns, unit, quota, limit)
+    picked = candidates(table, one, two, rows, columns, unit, first, care, upper)
+    found, enough = _look(a, b, one, two, picked, quota, first, care, wide, upper)
+    if first < limit and not enough:
+        picked = candidates(table, one, two, rows, columns, unit, limit, care, upper)
+        found, _ = _look(a, b, one, two, picked, quota, limit, care, wide, upper)
     return found
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=FAST)
 def _look(
     a: Float32, b: Float32, one: Cells, two: Cells, picked: Candidates, quota: float, limit: float, care: Care,
-    near: int, upper: bool,
+    wide: Around, upper: bool,
 ) -> tuple[Found, bool]:  # fmt: skip
     """Look into cells, the likeliest first, until the smoothest ``quota`` are among those found; whether they are."""
     order, ends, step = _in_bins(picked[2], limit + care.guess)
     best = np.full(int(min(quota, 2.0 * len(order) + 1)), np.inf)  # more than are there is no bound at all
     first, second, value = np.empty(256, np.int64), np.empty(256, np.int64), np.empty(256, np.float64)
     values, count = np.empty((CELL, CELL), np.float32), 0
+    bits = values.reshape(CELL * CELL).view(np.int32)
     for k in range(BINS):
         if k * step > best[-1] + care.guess:
             break
@@ -109,11 +109,10 @@ def _look(
                 continue
             if count + CELL * CELL > len(first):
                 first, second, value = more(first, CELL * CELL), more(second, CELL * CELL), more(value, CELL * CELL)
-            into = first[count:], second[count:], value[count:]
-            size = minima_inside(a, b, rows, columns, last, near, upper, values, into[0], into[1], into[2])
+            after = minima_inside(a, b, rows, columns, last, wide, upper, values, bits, first, second, value, count)
             if len(best) <= len(order):
-                _insert(best, value, count, count + size)
-            count += size
+                _insert(best, value, count, after)
+            count = after
     return (first[:count], second[:count], value[:count]), best[-1] < np.inf
 
 

@@ -18,7 +18,7 @@ _JOINING = tuple(
     f"moves/{name}.py"
     for name in (
         *("blocks", "candidates", "caps", "cells", "coarse", "exact", "groups", "inside", "joining", "library"),
-        *("minima", "similarity"),
+        *("minima", "similarity", "wanted"),
     )
 )
 _REST = tuple(f"moves/{name}.py" for name in ("compose", "graph", "making", "publish", "twins"))
