@@ -14,6 +14,7 @@ from onbeat.keyposes.judging import AnswersDocument
 from onbeat.keyposes.lowdim_document import LowdimDocument
 from onbeat.keyposes.threshold_file import LearnedDocument
 from onbeat.music.song import SongDocument
+from onbeat.reproduce.document import ResultsDocument
 from onbeat.retime.document import RetimeDocument
 from onbeat.retime.observe_document import ObserveDocument
 from onbeat.robots.document import RobotDocument
@@ -32,18 +33,39 @@ holds them together.
 
 
 class Document(NamedTuple):
-    """A document by the name of its file, the type that reads it, and who writes it."""
+    """A document by the name of its file, the type that reads it, who writes it, and what else is to be known."""
 
     name: str
     type: type
     about: str
+    more: str = ""
+
+
+METRICS = """
+`metrics` are groups of scores: `search`, `beats_before_warp`, `beats`, `warp`, `intensity`, `feet`, `smoothness` and
+`variety` ([how to read them](choose.md)). Those of `search`, of which the last four are there only where a library was
+too great to be searched whole:
+
+| score | what |
+|---|---|
+| `objective` | what the plan is worth to the search |
+| `optimum_with_repeats` | what the best plan is worth that may show a stretch twice; null if it was not searched for |
+| `of_optimum` | the first divided by the second |
+| `searched_s`, `library_s` | seconds of motion, with mirror images, of the part that was searched and of the library |
+| `bound` | no plan in the whole library is worth more |
+| `gap_at_most` | 0…1: by what share of `bound` the best plan of the part may be below the best there is |
+
+`wishes` is there where something was wished: `kept_s` and `favourites_s` are the seconds that were kept and that show
+favourites, `forbidden_clips` how many there are; of `objective`, `favourites_earned` is for favourites and `seed_earned`
+for what the seed likes.
+"""
 
 
 DOCUMENTS = (
     Document(
         "song.json", SongDocument, "Written by `onbeat listen SONG -o song.json` and, as danced to, by `onbeat dance`."
     ),
-    Document("dance.json", DanceDocument, "Written by `onbeat dance` beside the motion."),
+    Document("dance.json", DanceDocument, "Written by `onbeat dance` beside the motion.", METRICS),
     Document("keyposes.json", KeyposesDocument, "Written by `onbeat keyposes MOTION -o FOLDER`."),
     Document("thresholds.json", LearnedDocument, "Written by `onbeat keyposes learn … -o thresholds.json`."),
     Document("lowdim.json", LowdimDocument, "Written by `onbeat lowdim MOTIONS… -o FOLDER`."),
@@ -51,6 +73,7 @@ DOCUMENTS = (
     Document("retime.json", RetimeDocument, "Written by `onbeat retime MOTION … -o FOLDER` beside the motion."),
     Document("robot.json", RobotDocument, "Written by `onbeat robot MOTION … -o FOLDER` beside the dance."),
     Document("answers.json", AnswersDocument, "Saved by `judge.html`, read by `onbeat lowdim --judged`."),
+    Document("results.json", ResultsDocument, "Written by `onbeat reproduce` beside the pages of the papers."),
     Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),
 )
 
@@ -68,7 +91,7 @@ def section(document: Document) -> str:
     tables += [f"`{name}`: {table(found)}" for name, found in parts.items()]
     pretty = msgspec.json.format(msgspec.json.encode(schema), indent=2).decode()
     head = f"## {document.name}\n\n{document.about}\n\n"
-    return head + "\n".join(tables) + f"\nAs JSON schema:\n\n```json\n{pretty}\n```\n"
+    return head + "\n".join(tables) + document.more + f"\nAs JSON schema:\n\n```json\n{pretty}\n```\n"
 
 
 def table(schema: dict[str, Any]) -> str:

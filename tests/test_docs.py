@@ -16,6 +16,8 @@ import pytest
 
 from onbeat.cli.commands import COMMANDS, app
 from onbeat.dance.document import DanceDocument
+from onbeat.dance.report import _searched
+from onbeat.dance.search import Found, Searched
 from onbeat.examples.song import demo_song, true_song
 from onbeat.music.song import SongDocument
 
@@ -111,6 +113,14 @@ def test_the_table_of_modules_is_current():
 def test_the_page_of_documents_is_current():
     page = (ROOT / "docs" / "documents.md").read_text(encoding="utf-8")
     assert page == script("make_documents").page(), "run: python docs/make_documents.py"
+
+
+def test_the_page_of_documents_names_the_scores_of_a_search():
+    page = (ROOT / "docs" / "documents.md").read_text(encoding="utf-8")
+    part = Searched(range(300), 100.0, 2.0)  # type: ignore
+    scores = _searched(Found(None, 1.0, 1.0, 0.0, part))  # type: ignore
+    assert {"library_s", "gap_at_most"} < set(scores)
+    assert [name for name in scores if f"`{name}`" not in page] == []
 
 
 def test_documents_keep_to_their_schema():

@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -22,16 +23,16 @@ from onbeat.moves.store import open_library
 
 FORKS = pytest.mark.skipif(not hasattr(os, "fork"), reason="needs processes that are forked")
 
-# Builds in a process of its own for each fault, all forked from one that has imported everything.
+# Builds in a process of its own for each fault, all forked from one that has imported and compiled everything.
 FAULTS = """
 import json, os, resource, signal, sqlite3, sys, warnings
 from pathlib import Path
 from onbeat.errors import OnbeatError
 from onbeat.moves import build, stock
-from onbeat.moves.library import MoveLibrary
+from onbeat.moves.generations import Options
+from onbeat.moves.recordings import find_recordings
 
 warnings.simplefilter("ignore")
-source, library, faults = Path(sys.argv[1]), Path(sys.argv[2]), json.loads(sys.argv[3])
 calls = 0
 
 def dies(name, at, module=os):
@@ -87,7 +88,7 @@ def stored():  # where clips and blocks of pairs lie, by what they are
         index.close()
     return {repr(row[:2]): repr(row[2:]) for row in rows}
 
-for kind, at in faults:
+def outcome(kind, at):
     reading, writing = os.pipe()
     pid = os.fork()
     if pid == 0:
@@ -104,20 +105,36 @@ for kind, at in faults:
     os.close(writing)
     status = os.waitpid(pid, 0)[1]
     told = os.read(reading, 10000).decode() if not os.WIFSIGNALED(status) else "killed"
-    print(json.dumps([told, stored() if kind == "kill" else {}]), flush=True)
+    os.close(reading)
+    return told, stored() if kind == "kill" else {}
+
+warm = False
+for line in sys.stdin:
+    source, library, faults = json.loads(line)
+    source, library = Path(source), Path(library)
+    if not warm:
+        build.assemble(find_recordings([source]), Options())
+        warm = True
+    print(json.dumps([outcome(*fault) for fault in faults]), flush=True)
 """
 
+Faults = Callable[..., list[tuple[str, dict[str, str]]]]
 
-def faults(source: Path, library: Path, *wanted: tuple[str, int]) -> list[tuple[str, dict[str, str]]]:
-    """Build once for each fault, and say what came of it, and what was then in the index."""
-    run = subprocess.run(
-        [sys.executable, "-c", FAULTS, str(source), str(library), json.dumps(wanted)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    return [tuple(json.loads(line)) for line in run.stdout.splitlines()]
+
+@pytest.fixture(scope="module")
+def faults() -> Iterator[Faults]:
+    """Builds once for each fault, and says what came of it, and what was then in the index."""
+    command = [sys.executable, "-c", FAULTS]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdin
+        assert process.stdout
+        asked, answers = process.stdin, process.stdout
+
+        def build(source: Path, library: Path, *wanted: tuple[str, int]) -> list[tuple[str, dict[str, str]]]:
+            print(json.dumps([str(source), str(library), wanted]), file=asked, flush=True)
+            return [tuple(outcome) for outcome in json.loads(answers.readline())]
+
+        yield build
 
 
 def content(folder: Path) -> str:
@@ -134,7 +151,7 @@ def content(folder: Path) -> str:
 
 @FORKS
 def test_a_build_killed_at_any_write_is_finished_by_the_next_and_keeps_what_was_done(
-    clips_folder: Path, tmp_path: Path
+    faults: Faults, clips_folder: Path, tmp_path: Path
 ) -> None:
     whole, library = tmp_path / "whole", tmp_path / "library"
     build_library([clips_folder], whole)
@@ -153,7 +170,7 @@ def test_a_build_killed_at_any_write_is_finished_by_the_next_and_keeps_what_was_
 
 @FORKS
 def test_the_old_library_is_read_whatever_the_next_builder_was_killed_at(
-    clips_folder: Path, dances: list[Motion], tmp_path: Path
+    faults: Faults, clips_folder: Path, dances: list[Motion], tmp_path: Path
 ) -> None:
     library = tmp_path / "library"
     build_library([clips_folder], library)
@@ -168,7 +185,7 @@ def test_the_old_library_is_read_whatever_the_next_builder_was_killed_at(
 
 @FORKS
 def test_a_full_disk_is_one_clear_line_and_leaves_the_old_library_good(
-    clips_folder: Path, dances: list[Motion], tmp_path: Path
+    faults: Faults, clips_folder: Path, dances: list[Motion], tmp_path: Path
 ) -> None:
     library, whole = tmp_path / "library", tmp_path / "whole"
     build_library([clips_folder], library)
@@ -186,7 +203,9 @@ def test_a_full_disk_is_one_clear_line_and_leaves_the_old_library_good(
 
 
 @FORKS
-def test_a_disk_that_is_full_at_first_is_told_and_built_on_later(clips_folder: Path, tmp_path: Path) -> None:
+def test_a_disk_that_is_full_at_first_is_told_and_built_on_later(
+    faults: Faults, clips_folder: Path, tmp_path: Path
+) -> None:
     library, whole = tmp_path / "library", tmp_path / "whole"
     for told, _ in faults(clips_folder, library, ("full", 0), ("full", 100), ("full", 70_000), ("full", 400_000)):
         assert told.startswith("StorageError: cannot write in ")

@@ -22,52 +22,94 @@ from onbeat.moves import engine_cluster, engine_dask
 from onbeat.moves.engine import Engine, EngineError, Parts, run
 
 pytest.importorskip("distributed", reason="a cluster needs the extra [scale]")
+psutil = pytest.importorskip("psutil")  # which distributed needs
 
-BEGIN = "import sys; from distributed.cli.dask_{0} import main; sys.argv[0] = 'dask-{0}'; main()"
+if not hasattr(os, "fork"):
+    pytest.skip("needs processes that are forked", allow_module_level=True)
+
+# Schedulers and workers, each a process of its own, forked from one that has imported what they import.
+NURSERY = """
+import json, os, signal, sys
+from distributed.cli import dask_scheduler, dask_worker
+import made_tasks, onbeat.moves.engine_orders
+
+children = []
+for line in sys.stdin:
+    kind, options = json.loads(line)
+    pid = os.fork()
+    if pid == 0:
+        nowhere = os.open(os.devnull, os.O_RDWR)
+        for handle in range(3):
+            os.dup2(nowhere, handle)
+        sys.argv = [f"dask-{kind}", *options]
+        {"scheduler": dask_scheduler, "worker": dask_worker}[kind].main()
+        os._exit(0)
+    children.append(pid)
+    print(pid, flush=True)
+for pid in children:  # only now, so that their numbers are given to nobody else before
+    os.kill(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
+"""
+
+
+@pytest.fixture(scope="module")
+def nursery() -> Iterator[subprocess.Popen[str]]:
+    """The process that schedulers and workers are forked from."""
+    here = os.pathsep.join([str(Path(made.__file__).parent), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    environment = {**os.environ, "PYTHONPATH": here, "OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, "-c", NURSERY]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
+    ) as process:
+        yield process
 
 
 @contextmanager
-def started(kind: str, *options: str) -> Iterator[subprocess.Popen[bytes]]:
-    """A scheduler or a worker, in a process of its own."""
-    here = os.pathsep.join([str(Path(made.__file__).parent), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
-    environment = {**os.environ, "PYTHONPATH": here, "OPENBLAS_NUM_THREADS": "1"}
-    command = [sys.executable, "-c", BEGIN.format(kind), *options, "--host", "127.0.0.1", "--no-dashboard"]
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=environment)
+def started(nursery: subprocess.Popen[str], kind: str, *options: str) -> Iterator[int]:
+    """A scheduler or a worker, by the number of its process."""
+    assert nursery.stdin
+    assert nursery.stdout
+    print(json.dumps([kind, [*options, "--host", "127.0.0.1", "--no-dashboard"]]), file=nursery.stdin, flush=True)
+    process = int(nursery.stdout.readline())
     try:
         yield process
     finally:
-        process.kill()
-        process.wait()
+        kill(process)
+
+
+def kill(process: int) -> None:
+    """End a process at once; once more does nothing."""
+    os.kill(process, signal.SIGKILL)
 
 
 class Cluster:
     """A scheduler and its workers."""
 
-    def __init__(self, address: str, folder: Path) -> None:
-        self.address, self.folder = address, folder
+    def __init__(self, nursery: subprocess.Popen[str], address: str, folder: Path) -> None:
+        self.nursery, self.address, self.folder = nursery, address, folder
         self.engine = Engine.of(address)
 
     def worker(self) -> Any:
         """One more worker."""
         options = ["--nthreads", "1", "--no-nanny", "--local-directory", str(self.folder)]
-        return started("worker", self.address, *options)
+        return started(self.nursery, "worker", self.address, *options)
 
 
 @contextmanager
-def scheduled(folder: Path) -> Iterator[Cluster]:
+def scheduled(nursery: subprocess.Popen[str], folder: Path) -> Iterator[Cluster]:
     """A scheduler without workers."""
     card = folder / "scheduler.json"
-    with started("scheduler", "--port", "0", "--scheduler-file", str(card)) as scheduler:
+    with started(nursery, "scheduler", "--port", "0", "--scheduler-file", str(card)) as scheduler:
         while not (card.exists() and card.stat().st_size):
-            assert scheduler.poll() is None, "the scheduler did not start"
+            assert psutil.Process(scheduler).status() != psutil.STATUS_ZOMBIE, "the scheduler did not start"
             time.sleep(0.05)
-        yield Cluster(json.loads(card.read_text())["address"], folder)
+        yield Cluster(nursery, json.loads(card.read_text())["address"], folder)
 
 
 @pytest.fixture(scope="module")
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+def cluster(nursery: subprocess.Popen[str], tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
     """A scheduler and two workers."""
-    with scheduled(tmp_path_factory.mktemp("cluster")) as found, found.worker(), found.worker():
+    with scheduled(nursery, tmp_path_factory.mktemp("cluster")) as found, found.worker(), found.worker():
         yield found
 
 
@@ -124,7 +166,7 @@ def test_a_worker_killed_midway_loses_nothing(cluster: Cluster):
             assert block not in found
             found[block] = result.tobytes()
             if len(found) == 15:
-                third.send_signal(signal.SIGKILL)
+                kill(third)
 
         crew.run(made.blocks(9), made.slow_product, done, parts=made.PARTS)
     assert found == results(Engine(), 9)
@@ -172,14 +214,16 @@ def test_no_scheduler_is_told_in_a_line(monkeypatch: pytest.MonkeyPatch):
     assert "\n" not in str(caught.value)
 
 
-def test_a_cluster_that_loses_everything_is_told_and_does_not_hang(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_cluster_that_loses_everything_is_told_and_does_not_hang(
+    nursery: subprocess.Popen[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     monkeypatch.setattr(engine_cluster, "PATIENCE", 1.0)
     monkeypatch.setattr(engine_dask, "PATIENCE", 1.0)
     monkeypatch.setattr(engine_dask, "LOOK", 0.3)
     monkeypatch.setattr(engine_dask, "FETCH", 1.0)
-    with scheduled(tmp_path) as lonely:
+    with scheduled(nursery, tmp_path) as lonely:
         with pytest.raises(EngineError, match="no worker"):
             lonely.engine.crew()
         monkeypatch.setattr(engine_cluster, "PATIENCE", 30.0)
         with lonely.worker() as worker, pytest.raises(EngineError, match="no worker"):
-            run(range(500), made.who, lambda *_: worker.kill(), lonely.engine)
+            run(range(500), made.who, lambda *_: kill(worker), lonely.engine)

@@ -22,7 +22,8 @@ CONNECT = 10.0
 """Seconds that a scheduler may take to answer."""
 PATIENCE = 60.0
 """Seconds for which there may be no worker."""
-_MARK = ".run-"
+MARK = ".run-"
+"""How the name of a file begins that says whose run a folder is of."""
 
 
 def connected(address: str) -> Any:
@@ -114,9 +115,9 @@ def words(error: BaseException) -> str:
 def marked(folder: Path) -> str:
     """A file in a folder by which workers know it; "" if there can be none. Those that stopped builders left go."""
     try:
-        for old in folder.glob(f"{_MARK}*"):
+        for old in folder.glob(f"{MARK}*"):
             old.unlink()
-        handle, path = tempfile.mkstemp(prefix=_MARK, dir=folder.absolute())
+        handle, path = tempfile.mkstemp(prefix=MARK, dir=folder.absolute())
     except OSError:
         return ""
     os.close(handle)

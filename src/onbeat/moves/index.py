@@ -15,6 +15,7 @@ from pathlib import Path
 
 from onbeat.errors import LibraryError
 from onbeat.moves.lock import StorageError
+from onbeat.moves.undo import undone
 
 INDEX = "index.sqlite"
 FORMER = "library.json"  # what versions 1 and 2 had in its place, with arrays in ``data-*``
@@ -89,7 +90,7 @@ def open_index(path: Path) -> sqlite3.Connection:
         except sqlite3.OperationalError as error:
             if error.sqlite_errorname != "SQLITE_READONLY_ROLLBACK":
                 raise
-            index = _snapshot(path, "rw")  # a builder was stopped while it committed: SQLite undoes that first
+            index = _recovered(path)
     except OSError as error:
         raise LibraryError(f"cannot read {path}: {error.strerror or error}") from None
     except sqlite3.Error as error:
@@ -100,6 +101,14 @@ def open_index(path: Path) -> sqlite3.Connection:
         index.close()
         raise
     return index
+
+
+def _recovered(path: Path) -> sqlite3.Connection:
+    """As ``_snapshot``, after a builder was stopped while it committed."""
+    try:
+        return _snapshot(path, "rw")  # SQLite undoes that first
+    except sqlite3.OperationalError:
+        return undone(path)
 
 
 def _snapshot(path: Path, mode: str) -> sqlite3.Connection:

@@ -7,8 +7,7 @@ width, float32). A mirror image has no motion of its own: it is made from its or
 
 from __future__ import annotations
 
-from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -90,6 +89,41 @@ class Label(NamedTuple):
     about: About = About()
 
 
+class _Stored(NamedTuple):
+    """Where a clip lies, and what its motion needs beside its bytes."""
+
+    shards: Shards
+    span: Span
+    shape: Shape
+    skeleton: Skeleton
+    name: str
+    original: Clip | None
+
+    def part(self, array: str) -> np.ndarray:
+        return self.shape.split(self.shards.read(self.span))[array]
+
+    def motion(self) -> Motion:
+        if self.original is not None:
+            return mirrored(self.original.motion).replace(name=self.name)
+        rotations, path = self.part("rotations"), self.part("root_positions")
+        try:
+            return Motion(self.skeleton, rotations, path, self.shape.fps, self.name)
+        except FormatError as error:
+            raise LibraryError(f"the library is damaged ({error}); build it again") from None
+
+
+class _Part(Maker[Any]):
+    """An array of a stored clip, or its motion."""
+
+    __slots__ = ("_array", "_stored")
+
+    def __init__(self, stored: _Stored, array: str) -> None:
+        self._stored, self._array = stored, array
+
+    def make(self) -> Any:
+        return self._stored.motion() if self._array == "motion" else self._stored.part(self._array)
+
+
 def stored_clip(
     shards: Shards, span: Span, shape: Shape, skeleton: Skeleton, label: Label, original: Clip | None = None
 ) -> Clip:
@@ -100,18 +134,7 @@ def stored_clip(
     LibraryError
         When an array is asked for and is not there, or is no motion.
     """
-
-    def part(array: str) -> np.ndarray:
-        return shape.split(shards.read(span))[array]
-
-    def motion() -> Motion:
-        if original is not None:
-            return mirrored(original.motion).replace(name=label.name)
-        try:
-            return Motion(skeleton, part("rotations"), part("root_positions"), shape.fps, label.name)
-        except FormatError as error:
-            raise LibraryError(f"the library is damaged ({error}); build it again") from None
-
-    parts = [Maker(partial(part, array)) for array in ("stops", "intensity", "poses", "keyposes")]
+    stored = _Stored(shards, span, shape, skeleton, label.name, original)
+    motion, *parts = (_Part(stored, array) for array in ("motion", "stops", "intensity", "poses", "keyposes"))
     length = shape.frames, shape.fps
-    return Clip(Maker(motion), label.name, label.source, shape.mirrored, *parts, length=length, about=label.about)
+    return Clip(motion, label.name, label.source, shape.mirrored, *parts, length=length, about=label.about)

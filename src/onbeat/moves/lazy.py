@@ -11,8 +11,14 @@ T = TypeVar("T")
 class Maker(Generic[T]):
     """How a field is made: a function without arguments."""
 
+    __slots__ = ("_make",)  # a library of many clips has five of them for each
+
     def __init__(self, make: Callable[[], T]) -> None:
-        self.make = make
+        self._make = make
+
+    def make(self) -> T:
+        """Make it."""
+        return self._make()
 
 
 class Lazy(Generic[T]):

@@ -1,7 +1,5 @@
 """A motion library: clips of one body, their features, and the motion graph that joins them."""
 
-# ruff: noqa: RUF009 - a Lazy default is a descriptor, made once for the class
-
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence

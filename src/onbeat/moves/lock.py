@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
-import sys
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
 from onbeat.errors import LibraryError
+from onbeat.files import lock_file
 
 LOCK = ".lock"
 
@@ -42,7 +42,7 @@ def building(folder: Path) -> Generator[None, None, None]:
         raise StorageError(f"cannot write in {folder}: {error.strerror or error}; choose another folder") from None
     try:
         try:
-            _lock(handle)
+            lock_file(handle)
         except OSError:
             holder = os.read(handle, 20).decode(errors="replace").strip() or "another"
             raise BusyError(
@@ -61,16 +61,3 @@ def building(folder: Path) -> Generator[None, None, None]:
         raise
     finally:
         os.close(handle)
-
-
-def _lock(handle: int) -> None:
-    """Lock a file or raise ``OSError`` at once."""
-    if sys.platform == "win32":
-        import msvcrt
-
-        os.lseek(handle, 64, os.SEEK_SET)  # past the number, which others may read
-        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-    else:
-        import fcntl
-
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

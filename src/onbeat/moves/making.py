@@ -21,7 +21,7 @@ from onbeat.moves.recordings import Recording
 from onbeat.moves.stock import Row, Stock
 from onbeat.moves.twins import find_twins
 
-READING, PLACING = 0.1, 0.5  # shares of a build's time at which each is done
+READING, PLACING, COMPARING = 0.1, 0.5, 0.52  # shares of a build's time at which each is done
 
 
 def silent(what: str, share: float) -> None:
@@ -151,7 +151,6 @@ class Making:
 
     def _sort_out(self, rows: dict[int, list[Row]]) -> dict[int, list[Row]]:
         """Leave out takes that are there already."""
-        self.step("comparing takes", PLACING)
         numbers = list(rows)
         originals = [rows[n][0] for n in numbers]
 
@@ -159,7 +158,11 @@ class Making:
             row = originals[clip]
             return row.shape.split(self.stock.clips.read(row.span))["poses"]
 
-        for later, earlier in find_twins([row.shape.poses for row in originals], poses).items():
+        def step(share: float) -> None:
+            self.step("comparing takes", PLACING + (COMPARING - PLACING) * share)
+
+        step(0.0)
+        for later, earlier in find_twins([row.shape.poses for row in originals], poses, step).items():
             self.problems[numbers[later]] = f"moves as {self.recordings[numbers[earlier]].name} does, all along"
         return {n: rows[n] for n in self._good()}
 
@@ -170,5 +173,5 @@ class Making:
         ]
 
     def _then(self, what: str, share: float) -> None:
-        """Progress of what follows placing."""
-        self.step(what, PLACING + (1 - PLACING) * share)
+        """Progress of what follows."""
+        self.step(what, COMPARING + (1 - COMPARING) * share)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import msgspec
@@ -17,11 +17,13 @@ from onbeat.moves.index import INDEX, reading
 from onbeat.moves.library import MoveLibrary
 from onbeat.moves.lock import building
 from onbeat.moves.placing import Reading
-from onbeat.moves.publish import Draft, Step, publish
+from onbeat.moves.publish import Draft, Step, publish, rising
 from onbeat.moves.shards import DiskShards, Span
 from onbeat.moves.stock import PAIR, SHARDS, Row, Stock, select_clips
 from onbeat.moves.store import Stored, is_library, open_library, read_stored
 from onbeat.moves.twins import find_twins
+
+COMPARED = 0.05  # share of a merger's time at which takes are compared
 
 
 def remove_recordings(
@@ -85,10 +87,11 @@ def merge_libraries(
     _refuse_others(folders, stored)
     if is_library(output):
         raise LibraryError(f"there is a library in {output} already; choose another folder")
+    step = rising(step or (lambda what, share: None))
     with building(output):
         stock = opened_stock(output)
         try:
-            publish(stock, _draft(stock, folders, stored), engine or Engine(), step or (lambda what, share: None))
+            publish(stock, _draft(stock, folders, stored, step), engine or Engine(), step)
         finally:
             stock.close()
     return open_library(output)
@@ -109,7 +112,7 @@ def _refuse_others(folders: Sequence[Path], stored: Sequence[Stored]) -> None:
             raise LibraryError(f"{folder} was built with other options than {folders[0]}; build it again with the same")
 
 
-def _draft(stock: Stock, folders: Sequence[Path], stored: Sequence[Stored]) -> Draft:
+def _draft(stock: Stock, folders: Sequence[Path], stored: Sequence[Stored], step: Step) -> Draft:
     """What all libraries hold together, copied into stock."""
     entries: list[Entry] = []
     rows: dict[int, list[Row]] = {}
@@ -128,21 +131,23 @@ def _draft(stock: Stock, folders: Sequence[Path], stored: Sequence[Stored]) -> D
             if entries[first + number].problem is None:
                 found = stock.clips_of(entries[first + number].content, one.generation.stage)
                 rows[first + number] = [found[kind] for kind in sorted(found)]
-    _leave_out_twins(stock, entries, rows)
+    _leave_out_twins(stock, entries, rows, lambda share: step("comparing takes", COMPARED * share))
     new = stored[0].generation
     members = [(n, row) for n, found in rows.items() for row in found]
     named = _unique(entries, folders, stored)
     return Draft(new.method, new.options, new.reading, new.stage, new.skeleton, named, members)
 
 
-def _leave_out_twins(stock: Stock, entries: list[Entry], rows: dict[int, list[Row]]) -> None:
+def _leave_out_twins(
+    stock: Stock, entries: list[Entry], rows: dict[int, list[Row]], step: Callable[[float], None]
+) -> None:
     numbers = list(rows)
 
     def poses(clip: int) -> Float32:
         row = rows[numbers[clip]][0]
         return row.shape.split(stock.clips.read(row.span))["poses"]
 
-    twins = find_twins([rows[n][0].shape.poses for n in numbers], poses)
+    twins = find_twins([rows[n][0].shape.poses for n in numbers], poses, step)
     for later, earlier in twins.items():
         told = f"moves as {entries[numbers[earlier]].name} does, all along"
         entries[numbers[later]] = entries[numbers[later]]._replace(problem=told)

@@ -26,6 +26,8 @@ TURN = 0.10  # s; the body's turning about the vertical
 CONTACT = 0.30  # [1]; a foot on the ground in one pose and in the air in the other
 # Hands and feet hang at the end of what is compared already; the middle of the body moves everything.
 WEIGHTS = {"trunk": 0.0, "hand": 0.5, "collar": 0.7, "foot": 0.8, "pelvis": 1.0, "head": 0.7}
+DIRECTIONS, VELOCITIES = slice(0, 3 * len(LINKS)), slice(3 * len(LINKS), 6 * len(LINKS))
+"""Columns of pose vectors: x, y, z of each link's direction, then of its velocity."""
 
 
 def link_weights() -> Array:

@@ -7,12 +7,13 @@ import shutil
 from pathlib import Path
 
 from onbeat.moves.compact import compact
+from onbeat.moves.engine_cluster import MARK
 from onbeat.moves.generations import Generation
 from onbeat.moves.graph_files import drop_graphs
 from onbeat.moves.index import FORMER, committed
 from onbeat.moves.joining import Join
 from onbeat.moves.shards import DiskShards
-from onbeat.moves.stock import Stock
+from onbeat.moves.stock import SHARDS, Stock
 
 SPOOL = ".joins"
 """Folder in which joins are collected while a graph is made."""
@@ -39,9 +40,12 @@ def sweep(stock: Stock, current: Generation, join: Join) -> None:
 
 
 def _drop_leftovers(folder: Path) -> None:
-    """Delete the spool, and the arrays of a library of a former version."""
+    """Delete the spool, marks of runs that were killed, and the arrays of a library of a former version."""
     with contextlib.suppress(OSError):
         shutil.rmtree(folder / SPOOL)
+    for mark in (folder / SHARDS).glob(f"{MARK}*"):
+        with contextlib.suppress(OSError):
+            mark.unlink()
     if (folder / FORMER).is_file():
         (folder / FORMER).unlink()
         for path in [*folder.glob("data-*"), *folder.glob(".data-*")]:
