@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from onbeat.dance.score import FINE, HIT_WIDTH, INTENSITY, OFF_BEAT, Music, score_music, z_rank
+from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 from onbeat.music.song import Song
 
@@ -85,3 +86,16 @@ def test_part_of_the_music_is_the_music_of_that_part() -> None:
     for second in (0.0, 0.5, 1.0, 1.9):
         assert worth_at(part, second) == worth_at(music, second + 1.0)
     np.testing.assert_array_equal(part.intensity, music.intensity[30:90])
+
+
+def test_the_weight_of_intensity_is_lambda_unless_told() -> None:
+    clock = np.arange(0.0, 6.0, 0.1)
+    beats = np.arange(0.5, 6.0, 0.5)
+    song = Song(6.0, 120.0, 4, beats, beats[::4], np.zeros(len(beats)), clock, np.sin(clock))
+    usual = score_music(song).intensity
+    assert np.std(usual) == pytest.approx(INTENSITY / GRID, rel=1e-3)
+    np.testing.assert_array_equal(score_music(song, weight=INTENSITY).intensity, usual)
+    np.testing.assert_allclose(score_music(song, weight=2 * INTENSITY).intensity, 2 * usual, rtol=1e-5)
+    for weight in (-1.0, float("nan"), 1e9):
+        with pytest.raises(PlanError, match="of intensity cannot be"):
+            score_music(song, weight=weight)

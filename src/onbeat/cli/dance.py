@@ -22,6 +22,7 @@ from threadpoolctl import threadpool_limits
 from onbeat._shapes import Float32
 from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
 from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.cli.wish_flags import NO_WISH_FLAGS, WishFlags
 from onbeat.dance.make import LONGEST, Dance, make_dance
 from onbeat.errors import LibraryError, OnbeatError, PlanError
 from onbeat.files import make_folder
@@ -56,6 +57,7 @@ def dance_command(
     video: Annotated[bool, cyclopts.Parameter(negative="")] = False,
     json: Annotated[bool, cyclopts.Parameter(negative="")] = False,
     flags: CorrectionFlags = NO_FLAGS,
+    wished: WishFlags = NO_WISH_FLAGS,
 ) -> None:
     """Dance to a song with the moves of a folder of motion capture.
 
@@ -74,8 +76,8 @@ def dance_command(
     start
         Second of the song to begin at.
     seed
-        Of the embedded song, of the method ``walk`` and of the chance that scores are held against; the same seed
-        gives the same bytes.
+        Of the embedded song, of the method ``walk``, of what is danced beside stretches that are kept, and of the
+        chance that scores are held against; the same seed gives the same bytes.
     method
         How moves are chosen: ``optimal`` over the whole song, ``shiratori2006`` three seconds ahead as in the paper,
         ``greedy`` three seconds ahead on our objective, ``walk`` at random.
@@ -93,9 +95,12 @@ def dance_command(
         Print dance.json on stdout instead of a table.
     flags
         What was heard wrong of the song, and how it is right.
+    wished
+        What to dance, what not, and what to keep of an earlier dance.
     """
     _check(seconds, start, seed, fps)
     _check_output(output)
+    wishes = wished.wishes()
     if video:
         _require_video()
     if moves is not None and not moves.exists():
@@ -104,10 +109,11 @@ def dance_command(
         heard, sound = _hear(song, start, seconds, seed, flags.corrections(), stages)
         library = _library(moves, mirror, stages)
         dance = make_dance(
-            heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, step=stages
-        )
+            heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, wishes=wishes,
+            step=stages,
+        )  # fmt: skip
         with _staged(output) as folder:
-            _write(folder, dance, sound, video, stages)
+            _write(folder, dance, library, sound, video, stages)
     _tell_left_out(library)
     if json:
         print(dance.document.to_json().decode(), end="")  # noqa: T201
@@ -243,20 +249,17 @@ def _staged(output: Path) -> Generator[Path]:
                 output.rmdir()
 
 
-def _write(folder: Path, dance: Dance, sound: Sound, video: bool, stages: Stages) -> None:
-    import msgspec
-
+def _write(folder: Path, dance: Dance, library: MoveLibrary, sound: Sound, video: bool, stages: Stages) -> None:
     from onbeat.files import write_atomically
     from onbeat.formats.write import write_motion
-    from onbeat.viewer.page import write_page
+    from onbeat.viewer.dance_page import write_dance_page
 
     stages("writing", 0.0)
     write_motion(dance.motion, folder / "dance.bvh")
     stages("writing", 0.3)
     write_motion(dance.motion, folder / "dance.glb")
     stages("writing", 0.5)
-    document = msgspec.to_builtins(dance.document)
-    write_page(folder / "dance.html", dance.motion, dance.song, document, sound, _keyposes(dance))
+    write_dance_page(folder / "dance.html", dance, library, sound, _keyposes(dance))
     write_atomically(folder / "dance.json", dance.document.to_json())
     write_atomically(folder / "song.json", dance.song.to_json())
     stages("writing", 1.0)

@@ -24,6 +24,7 @@ from onbeat.dance.frames import lay_frames
 from onbeat.dance.optimal import HOLD
 from onbeat.dance.part import Part
 from onbeat.dance.score import Music
+from onbeat.dance.wished import Wished
 from onbeat.moves.library import MoveLibrary
 
 WIDTH = 400
@@ -55,15 +56,18 @@ class Field:
     music: Music
 
     @classmethod
-    def of(cls, library: MoveLibrary, music: Music) -> Field:
+    def of(cls, library: MoveLibrary, music: Music, wished: Wished | None = None) -> Field:
         """Read off the whole library; poses and motions are not touched."""
         laid = lay_frames(library, (1.0,))
+        idle, left = laid.idle, laid.left.astype(np.int32)
+        if wished is not None:  # nothing is left of a forbidden clip, so that no dance goes there
+            idle, left = idle - wished.favour - wished.taste, np.where(wished.allowed(library), left, 0)
         stops = np.flatnonzero(laid.stop_worth > 0)
         spent = np.concatenate(([0.0], np.cumsum(most_earned(music, laid.intensity)))) * SHARE
         return cls(
             laid.intensity,
-            laid.idle,
-            laid.left.astype(np.int32),
+            idle.astype(np.float32),
+            left.astype(np.int32),
             stops.astype(np.int32),
             laid.stop_shift[stops].astype(np.int32),
             np.searchsorted(stops, np.arange(len(laid))).astype(np.int32),
@@ -73,7 +77,12 @@ class Field:
 
 
 def find_part(
-    library: MoveLibrary, music: Music, join_cost: tuple[float, float], frames: int, width: int = WIDTH
+    library: MoveLibrary,
+    music: Music,
+    join_cost: tuple[float, float],
+    frames: int,
+    width: int = WIDTH,
+    wished: Wished | None = None,
 ) -> Part:
     """The part of a library, of about so many frames, in which the best dances to a song are sought.
 
@@ -82,13 +91,14 @@ def find_part(
     join_cost : (a, b): a join of pose distance d costs a + b d².
     frames : how many frames of the library's graph it may have.
     width : partial dances kept at each song frame.
+    wished : clips that are not in it, clips that are liked, and stretches that must be in it, with ways to them.
     """
-    field, graph = Field.of(library, music), library.graph
+    field, graph = Field.of(library, music, wished), library.graph
     parent, time, entry, length, behind = walk(
         music.frames, HOLD, width, np.asarray(graph.indptr), np.asarray(graph.targets), np.asarray(graph.costs),
         *join_cost, field.intensity, field.idle, field.left, field.stops, field.shifts, field.next_stop, field.spent,
         music.beat_worth, music.intensity,
     )  # fmt: skip
-    kept = np.zeros(len(graph), bool)
+    kept = np.zeros(len(graph), bool) if wished is None else wished.around(library)
     mark_ways(parent, time, entry, length, np.argsort(behind, kind="stable"), field.left, frames, kept)
     return Part.of(kept, np.asarray(graph.clip_of))

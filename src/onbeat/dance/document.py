@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 import msgspec
+from msgspec import UNSET, UnsetType
 
 from onbeat.errors import PlanError
 
@@ -44,6 +45,10 @@ class DanceDocument(msgspec.Struct, frozen=True):
     metrics: Annotated[dict[str, Any], Said(description="names and values as `onbeat evaluate --json` gives them")]
     title: Annotated[str, Said(description="the song's name")] = ""
     joins: Annotated[list[JoinDocument], Said(description="one for each move but the first")] = []
+    warp: Annotated[
+        list[float] | UnsetType,
+        Said(description="seconds of the plan at even steps of the dance; told where stretches were kept"),
+    ] = UNSET
 
     def to_json(self) -> bytes:
         """The document as JSON bytes."""

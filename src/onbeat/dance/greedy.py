@@ -39,7 +39,7 @@ def reward_table(problem: Problem, t: int, ahead: int) -> Float32:
     """(H, M) worth of each frame at song frames t, t + 1, … for ``ahead`` frames or to the song's end."""
     table = np.empty((min(ahead, problem.music.frames - t), len(problem.frames)), np.float32)
     for k, row in enumerate(table):
-        rewards(t + k, row, *problem.arrays[6:13])
+        rewards(t + k, row, *problem.worth)
     return table
 
 

@@ -17,8 +17,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from onbeat._shapes import Array, Float32, Ints
+from onbeat._shapes import Array, Bools, Float32, Ints
 from onbeat.dance.optimal import Problem, seam
+from onbeat.dance.reach import Reach
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 
@@ -47,6 +48,7 @@ class Roads:
     beats : the worth of a stop at each instant, as in ``Music.beat_worth``.
     hold : frames danced at least after a join.
     frames : frames of the song.
+    reach : from where all that is kept can be danced; None where nothing is.
     """
 
     base: Ints
@@ -59,6 +61,7 @@ class Roads:
     beats: Float32
     hold: int
     frames: int
+    reach: Reach | None = None
 
     @classmethod
     def of(cls, problem: Problem) -> Roads:
@@ -74,6 +77,7 @@ class Roads:
             problem.music.beat_worth,
             problem.hold,
             problem.music.frames,
+            None if problem.kept is None else Reach.of(problem),
         )
 
     def __len__(self) -> int:
@@ -91,27 +95,48 @@ class Roads:
             )
         return found
 
+    def ahead(self, t: int) -> Bools:
+        """(hold + 1, M) whether the dance can come to its end from each frame that it is about to show at t, t + 1, …
+
+        The frames from t up to there have been run through in the same clip; past the song's end all is well.
+        """
+        if self.reach is not None:
+            return self.reach.ahead(t)
+        return self.survival >= self.frames - t - np.arange(self.hold + 1)[:, None]
+
+    def enterable(self, t: int, goals: Ints) -> Bools:
+        """Whether a join at song frame t to each of ``goals`` leaves a way to the song's end."""
+        landing = np.minimum(goals + self.hold, len(self) - 1)
+        if self.reach is not None:
+            return self.reach.ahead(t)[self.hold, landing]
+        return self.survival[landing] >= self.frames - t - self.hold
+
+    def free(self, t: int, frame: int) -> int:
+        """How many frames from ``frame`` on may be shown at the song frames from t on, the clip's end not looked at."""
+        rest = self.frames - t
+        return rest if self.reach is None else self.reach.free(t, frame, rest)
+
     def values(self, t: int, table: Array | Float32, first: int = 0) -> Array:
         """(H + 1, M) best sum of ``table`` less the costs of joins, from each frame on; rows before ``first`` left out.
 
         ``table`` (H, M) holds what each frame is worth at the song frames from t on. Frames from which the song cannot
         be danced to its end have the value ``IMPOSSIBLE``.
         """
-        rest = self.frames - t - len(table)
         values = np.full((len(table) + 1, len(self)), IMPOSSIBLE)
-        values[-1] = np.where(self.survival >= rest, 0.0, IMPOSSIBLE)
-        _values(t, first, table, values, *self._arrays)
+        ahead = self.ahead(t + len(table))
+        values[-1] = np.where(ahead[0], 0.0, IMPOSSIBLE)
+        _values(t, first, table, values, ahead, *self._arrays)
         return values
 
     def branches(self, t: int, frame: int, table: Array | Float32, values: Array) -> Branches:
         """All first branches from ``frame``, each with its best completion up to the horizon, in order of wait."""
-        return Branches(*_branches(t, frame, table, values, *self._arrays))
+        return Branches(*_branches(t, frame, table, values, self.ahead(t + len(table)), *self._arrays))
 
     @cached_property
     def _arrays(self) -> tuple[Any, ...]:
         return (
             self.frames, self.hold, self.indptr, self.goal, self.costs, self.base, self.left, self.entries,
-            self.survival, *self.seams, self.beats,
+            *self.seams, self.beats,
         )  # fmt: skip
 
 
@@ -145,18 +170,18 @@ def _survival(frames, hold, indptr, goal, base, left, entries, found):
 
 
 @njit(cache=True, boundscheck=False)
-def _landing(values, k, g, hold, rest, survival):
+def _landing(values, k, g, hold, ahead):
     """Value of what follows a join to g at row k: that of its landing, or 0 if it lands well past the horizon."""
     horizon = len(values) - 1
     if k + hold <= horizon:
         return values[k + hold, g + hold]
-    return 0.0 if survival[g + hold] >= rest - (k + hold - horizon) else IMPOSSIBLE
+    return 0.0 if ahead[k + hold - horizon, g + hold] else IMPOSSIBLE
 
 
 @njit(cache=True, boundscheck=False)
 def _values(
-    t, first, table, values,
-    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, promise, beats,
+    t, first, table, values, ahead,
+    frames, hold, indptr, goal, costs, base, left, entries, seam_ptr, seam_at, seam_sign, promise, beats,
 ):  # fmt: skip
     horizon, size = table.shape
     rest = frames - t - horizon
@@ -174,7 +199,7 @@ def _values(
             for r in range(entries.shape[0]):
                 g = entries[r, i]
                 if g >= 0:
-                    best[i] = max(best[i], sums[g] + _landing(values, k, g, hold, rest, survival))
+                    best[i] = max(best[i], sums[g] + _landing(values, k, g, hold, ahead))
         for i in range(nodes):
             top = IMPOSSIBLE
             for e in range(indptr[i], indptr[i + 1]):
@@ -193,8 +218,8 @@ def _values(
 
 @njit(cache=True, boundscheck=False)
 def _branches(
-    t, frame, table, values,
-    frames, hold, indptr, goal, costs, base, left, entries, survival, seam_ptr, seam_at, seam_sign, promise, beats,
+    t, frame, table, values, ahead,
+    frames, hold, indptr, goal, costs, base, left, entries, seam_ptr, seam_at, seam_sign, promise, beats,
 ):  # fmt: skip
     horizon, rates = len(table), entries.shape[0]
     rest = frames - t - horizon
@@ -213,7 +238,7 @@ def _branches(
                 g = entries[r, goal[e]]
                 if g < 0:
                     continue
-                worth = before + gain + _landing(values, k, g, hold, rest, survival)
+                worth = before + gain + _landing(values, k, g, hold, ahead)
                 for n in range(min(hold, horizon - k)):
                     worth += table[k + n, g + n]
                 if worth > 0.5 * IMPOSSIBLE:
@@ -221,7 +246,7 @@ def _branches(
                     count += 1
         before += table[k, frame + k]
     whole = left[frame] + 1 >= horizon if rest == 0 else left[frame] >= horizon
-    if whole and (rest == 0 or survival[frame + horizon] >= rest):
+    if whole and (rest == 0 or ahead[0, frame + horizon]):
         wait[count], entry[count], value[count] = horizon, -1, before
         count += 1
     return wait[:count], entry[:count], value[:count]

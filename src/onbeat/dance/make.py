@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import msgspec
 import numpy as np
 from threadpoolctl import threadpool_limits
 
@@ -14,11 +15,13 @@ from onbeat.dance.plan import DancePlan
 from onbeat.dance.realise import Realised, realise
 from onbeat.dance.report import Measured, measure
 from onbeat.dance.search import Found, search
-from onbeat.dance.warp import Warp, fit_warp
+from onbeat.dance.shown import shown
+from onbeat.dance.warp import KNOT, Warp, fit_warp
+from onbeat.dance.wished import Wished
+from onbeat.dance.wishes import NO_WISHES, Wishes
 from onbeat.errors import PlanError
 from onbeat.motion.features import hand_features
 from onbeat.motion.motion import Motion
-from onbeat.moves.graph import MotionGraph
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 from onbeat.music.tempo import danceable_beats
@@ -63,6 +66,8 @@ def make_dance(
     method: str = "optimal",
     rhythm_only: bool = False,
     warp: bool = True,
+    wishes: Wishes = NO_WISHES,
+    intensity_weight: float | None = None,
     step: Step | None = None,
 ) -> Dance:
     """Dance to a song with the moves of a library.
@@ -72,16 +77,19 @@ def make_dance(
     song : as heard by ``onbeat.listen``; its tempo is folded to one that is danced to.
     library : clips and the graph that joins them.
     fps : frames per second of the dance; by default those of the library's clips.
-    seed : of the random nulls in the metrics, and of the method ``walk``.
+    seed : of the random nulls in the metrics, and of the method ``walk``; where a stretch is kept, of what is liked
+        a little better in the rest of the dance.
     method : one of ``search.METHODS``.
     rhythm_only : leave intensity out (the ablation of Shiratori et al. 2006, Fig. 8).
     warp : move stops onto beats by a small time warp.
+    wishes : clips never to show or to show rather, stretches of earlier dances to dance again.
+    intensity_weight : λ, how much following the music's intensity counts; by default ``score.INTENSITY``.
     step : called with what is done now and the share of all done, 0…1.
 
     Raises
     ------
     PlanError
-        If the song has no beats or is too long, or the library cannot fill it.
+        If the song has no beats or is too long, the library cannot fill it, or a wish cannot be met.
 
     Examples
     --------
@@ -98,33 +106,41 @@ def make_dance(
         raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
     with threadpool_limits(1, "blas"):  # products of matrices on more threads differ in their last bits
         say("searching", 0.0)
+        wished = Wished.of(wishes, library, song, seed) if wishes else None
         found = search(
-            library, song, method=method, rhythm_only=rhythm_only, seed=seed, step=lambda s: say("searching", s)
-        )
-        shown, plan = _shown(library, found.plan)
-        clips = [clip.motion for clip in shown.clips]
+            library, song, method=method, rhythm_only=rhythm_only, seed=seed, wished=wished,
+            intensity_weight=intensity_weight, step=lambda s: say("searching", s),
+        )  # fmt: skip
+        few, plan = shown(library, found.plan)
+        clips = [clip.motion for clip in few.clips]
         say("dancing", 0.0)
         first = realise(clips, plan, fps)
         features = hand_features(first.motion)
         done, fitted = first, None
-        if warp:
+        held, spans = ((), None) if wished is None else (wished.held(), wished.spans(plan))
+        if warp or held:
             say("warping", 0.4)
-            fitted = fit_warp(plan, features.body_stops, song.beats, features.times, features.speeds.max(axis=1))
-            done = realise(clips, plan, fps, fitted)
+            beats = song.beats if warp else song.beats[:0]
+            fitted = fit_warp(plan, features.body_stops, beats, features.times, features.speeds.max(axis=1), held=held)
+            done = realise(clips, plan, fps, fitted, spans=spans)
         say("measuring", 0.7)
-        measured = measure(shown, song, replace(found, plan=plan), first, done, fitted, seed)
+        measured = measure(few, song, replace(found, plan=plan), first, done, fitted, seed)
     document = _document(library, song, found, done, fitted, measured, fps, seed, method)
+    if wished is not None:
+        document = _with_wishes(document, wished, found.plan, library, fitted)
     say("measuring", 1.0)
     return Dance(done.motion, song, found.plan, fitted, done, found, measured.stops, document)
 
 
-def _shown(library: MoveLibrary, plan: DancePlan) -> tuple[MoveLibrary, DancePlan]:
-    """The clips that a plan shows as a library without joins, and the plan over them: no other clip is read."""
-    used = sorted({move.clip for move in plan.moves})
-    place = {clip: k for k, clip in enumerate(used)}
-    nothing = MotionGraph(np.zeros(0, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.float32))
-    moves = tuple(replace(move, clip=place[move.clip]) for move in plan.moves)
-    return MoveLibrary(tuple(library.clips[clip] for clip in used), nothing), DancePlan(moves, plan.duration)
+def _with_wishes(
+    document: DanceDocument, wished: Wished, plan: DancePlan, library: MoveLibrary, warp: Warp | None
+) -> DanceDocument:
+    """The document with what came of the wishes, and the warp, so that the dance can be kept in its turn."""
+    metrics = document.metrics | {"wishes": wished.told(plan, library)}
+    if warp is None:
+        return msgspec.structs.replace(document, metrics=metrics)
+    even = np.linspace(0.0, plan.duration, round(plan.duration / KNOT) + 1)
+    return msgspec.structs.replace(document, metrics=metrics, warp=[round(t, 7) for t in warp(even).tolist()])
 
 
 def _danceable(song: Song) -> Song:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import mmap
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -35,6 +35,12 @@ from onbeat.moves.graph import GRID, STRETCH, MotionGraph
 HOLD = round(STRETCH * GRID)
 """m: song frames danced at least after a join."""
 NEVER = np.float32(-1e30)
+BARRED = np.float32(-1e5)
+"""What it is worth to show another frame than the one that is kept: less than any dance can make up for."""
+NO_WAY = (
+    "no dance keeps the stretches that are to be kept: between them, or between one of them and the song's beginning "
+    "or end, no joins lead from clip to clip in time; keep less, forbid fewer clips, or add clips"
+)
 ROWS_MEMORY = 460_000_000  # bytes of V held at once
 
 
@@ -47,6 +53,7 @@ class Problem:
     join_costs : (joins,) what each join of the graph costs, in units of the score.
     seams : what each join does to the stops beside it; None if nothing.
     hold : m, song frames danced at least after a join.
+    kept : (T,) int32 the virtual frame that must be shown at each song frame, −1 where any may; None if any may always.
     """
 
     graph: MotionGraph
@@ -55,6 +62,17 @@ class Problem:
     join_costs: Float32
     seams: Seams | None = None
     hold: int = HOLD
+    kept: NDArray[np.int32] | None = None
+
+    def part(self, begin: int, end: int) -> Problem:
+        """The song frames from ``begin`` up to ``end``."""
+        kept = None if self.kept is None else self.kept[begin:end]
+        return replace(self, music=self.music.part(begin, end), kept=kept)
+
+    @cached_property
+    def must(self) -> NDArray[np.int32]:
+        """(T,) ``kept``, or −1 for every song frame."""
+        return np.full(self.music.frames, -1, np.int32) if self.kept is None else self.kept.astype(np.int32)
 
     @cached_property
     def goals(self) -> tuple[Ints, Ints]:
@@ -83,6 +101,11 @@ class Problem:
             return np.zeros(self.graph.join_count + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32)
         return self.seams.indptr, self.seams.at, self.seams.sign
 
+    @property
+    def worth(self) -> tuple[Any, ...]:
+        """Those of ``arrays`` that :func:`rewards` takes."""
+        return self.arrays[6:14]
+
     @cached_property
     def arrays(self) -> tuple[Any, ...]:
         """The arrays as the compiled loops take them."""
@@ -101,19 +124,24 @@ class Problem:
             f.idle,
             m.beat_worth,
             m.intensity,
+            self.must,
             *self.changes,
             self.promise,
         )
 
 
 @njit(cache=True, boundscheck=False)
-def rewards(t, row, stops, worth, shift, motion, idle, beats, music):
+def rewards(t, row, stops, worth, shift, motion, idle, beats, music, must):
     """Fill ``row`` with r(t, ·), the worth of showing each virtual frame at song frame t."""
     now = music[t]
     for f in range(len(row)):
         row[f] = motion[f] * now - idle[f]
     for s in stops:
         row[s] += worth[s] * beats[(t + 4) * FINE + shift[s]]
+    if must[t] >= 0:
+        own = row[must[t]]
+        row[:] = BARRED
+        row[must[t]] = own
 
 
 @njit(cache=True, boundscheck=False, inline="always")
@@ -162,6 +190,7 @@ def _backward(
     idle,
     beats,
     music,
+    must,
     seam_ptr,
     seam_at,
     seam_sign,
@@ -174,14 +203,14 @@ def _backward(
     leap = np.empty(nodes, np.float32)
     for t in range(end - 1, begin - 1, -1):
         span = min(hold, frames - t)
-        rewards(t, row, stops, worth, shift, motion, idle, beats, music)
+        rewards(t, row, stops, worth, shift, motion, idle, beats, music, must)
         # Sums along the diagonals, those at t from those at t + 1. Where a clip ends they run on into the next
         # and mean nothing, but no join leads there.
         for f in range(size - 1):
             sums[f] = sums[f + 1] + row[f]
         sums[size - 1] = row[size - 1]
         if t + hold < frames:
-            rewards(t + hold, gone, stops, worth, shift, motion, idle, beats, music)
+            rewards(t + hold, gone, stops, worth, shift, motion, idle, beats, music, must)
             for f in range(size - hold):
                 sums[f] -= gone[f + hold]
         best_entries(sums, buffer[t + span - begin], span, entries, best, which)
@@ -226,6 +255,8 @@ class ValueToGo:
             self._kept[begin] = ahead.copy(), sums.copy()
             self._fill(begin, ahead, sums)
             ahead = self._buffer[:hold].copy()
+        if NEVER / 2 < self.optimum < BARRED / 2:
+            raise PlanError(NO_WAY)
         if self.optimum < NEVER / 2:
             raise PlanError(
                 f"no dance over the joins of this library lasts the song's {self.total / GRID:.1f} s: its clips have "
@@ -278,6 +309,8 @@ def reward_along(problem: Problem, t: int, entries: Ints, span: int) -> Array:
     shown = np.asarray(entries, np.int64)[:, None] + steps
     worth = music.beat_worth[(t + steps + 4) * FINE + frames.stop_shift[shown]]
     value = frames.stop_worth[shown] * worth + frames.intensity[shown] * music.intensity[t + steps] - frames.idle[shown]
+    must = problem.must[t : t + span]
+    value = np.where((must >= 0) & (shown != must), BARRED, value)
     return value.sum(axis=1, dtype=np.float64)
 
 

@@ -53,6 +53,7 @@ def realise(
     steer: float = MOST,
     standing: Sequence[Bools] | None = None,
     peaks: Array | None = None,
+    spans: Array | None = None,
 ) -> Realised:
     """Dance a plan: its moves turned and shifted to go on from each other, blended at the joins, feet kept planted.
 
@@ -71,6 +72,7 @@ def realise(
     standing : for each clip, (F, 2) true where the left, right foot rests; found in the clips where not given.
     peaks : (J,) rad/s, the fastest each joint's bone may turn in a join, such as the library's own peaks; where not
         given, as fast as it turns in the moves shown.
+    spans : (joins,) seconds that blends last, NaN for those that are to last as long as they need.
 
     Raises
     ------
@@ -92,7 +94,7 @@ def realise(
     shown = sources.pose(moves, times)
     shown_world = forward_kinematics(sources.skeleton, shown.rotations, shown.roots)
     limits = _peaks(sources, shown_world[1], moves, times) if peaks is None else peaks
-    windows = fitted_windows(sources, how, limits)
+    windows = fitted_windows(sources, how, limits, spans)
     pose = joined(sources, windows, how, shown, times)
     standing_now = standing_at(sources, standing, moves, times)
     turned = shown_world[0][:, body.indices("left_ankle", "right_ankle")]
@@ -102,8 +104,8 @@ def realise(
         pose = plant_feet(body, pose, shown_world, steps, moves, windows, times)
     roots = pose.roots - _middle(pose.roots)
     motion = Motion(sources.skeleton, pose.rotations, roots, fps, name="dance")
-    spans = tuple(zip(windows.starts.tolist(), windows.ends.tolist(), strict=True))
-    return Realised(motion, spans, steps.contacts, sources.clip_of[moves], sources.seconds(moves, times))
+    blended = tuple(zip(windows.starts.tolist(), windows.ends.tolist(), strict=True))
+    return Realised(motion, blended, steps.contacts, sources.clip_of[moves], sources.seconds(moves, times))
 
 
 def _blend(name: str) -> Blend:

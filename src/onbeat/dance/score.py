@@ -16,6 +16,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.stats import rankdata
 
 from onbeat._shapes import Array, Float32, Ints
+from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 from onbeat.music.song import Song
 
@@ -26,6 +27,8 @@ OFF_BEAT = 0.42
 """What every stop costs; a stop on a beat earns 1 less this."""
 INTENSITY = 0.78
 """λ: what a second costs or earns at one standard deviation of both intensities."""
+MOST_INTENSE = 100.0
+"""The highest λ that is taken."""
 STANDING = 0.5
 """What a second costs in which the hands do not dance: quiet music asks for small movements, not for none."""
 PHRASE = 0.75
@@ -54,20 +57,30 @@ class Music:
         return Music(worth, self.intensity[begin:end], end - begin)
 
 
-def score_music(song: Song, *, rhythm_only: bool = False, beat_weights: Array | None = None) -> Music:
-    """The song's side of the score: ``beat_weights`` (B,) 0…1 says what each beat is worth (all 1 by default)."""
+def score_music(
+    song: Song, *, rhythm_only: bool = False, beat_weights: Array | None = None, weight: float | None = None
+) -> Music:
+    """The song's side of the score: ``beat_weights`` (B,) 0…1 says what each beat is worth (all 1 by default).
+
+    ``weight`` is λ, by default ``INTENSITY``; a ``PlanError`` says if it cannot be.
+    """
+    if weight is not None and not 0.0 <= weight <= MOST_INTENSE:
+        raise PlanError(
+            f"a weight {weight:g} of intensity cannot be; give 0 to {MOST_INTENSE:g} ({INTENSITY:g} is usual)"
+        )
     frames = max(1, round(song.duration * GRID))
     times = (np.arange((frames + 2 * Music.PAD) * FINE) / FINE - Music.PAD) / GRID
     worth = np.zeros(len(times))
     weights = np.ones(len(song.beats)) if beat_weights is None else beat_weights
-    for beat, weight in zip(song.beats, weights, strict=True):
+    for beat, worthy in zip(song.beats, weights, strict=True):
         low, high = np.searchsorted(times, (beat - 5 * HIT_WIDTH, beat + 5 * HIT_WIDTH))
-        bump = weight * np.exp(-0.5 * ((times[low:high] - beat) / HIT_WIDTH) ** 2)
+        bump = worthy * np.exp(-0.5 * ((times[low:high] - beat) / HIT_WIDTH) ** 2)
         worth[low:high] = np.maximum(worth[low:high], bump)
     intensity = np.zeros(frames)
     if not rhythm_only and len(song.intensity):
         values = song.intensity_at((np.arange(frames, dtype=np.float64) + 0.5) / GRID)
-        intensity = z_rank(gaussian_filter1d(values, PHRASE * GRID, mode="nearest")) * INTENSITY / GRID
+        weighed = INTENSITY if weight is None else weight
+        intensity = z_rank(gaussian_filter1d(values, PHRASE * GRID, mode="nearest")) * weighed / GRID
     return Music((worth - OFF_BEAT).astype(np.float32), intensity.astype(np.float32), frames)
 
 

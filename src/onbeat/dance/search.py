@@ -21,6 +21,7 @@ from onbeat.dance.seams import find_seams
 from onbeat.dance.shiratori2006 import shiratori2006_path
 from onbeat.dance.variety import beam_path
 from onbeat.dance.walk import random_walk
+from onbeat.dance.wished import Wished
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
@@ -88,11 +89,12 @@ def make_problem(
     rhythm_only: bool = False,
     rates: tuple[float, ...] = RATES,
     part: Part | None = None,
+    intensity_weight: float | None = None,
 ) -> Problem:
     """What the searches search: the frames and joins of a library or a part, the song's worth, and what joins cost."""
     if song.duration <= 0:
         raise PlanError("the song has no length; choose a stretch of it with --start and --seconds")
-    music = score_music(song, rhythm_only=rhythm_only)
+    music = score_music(song, rhythm_only=rhythm_only, weight=intensity_weight)
     graph, joins = library.graph, None
     if part is not None:
         graph = part.joins(library.graph)
@@ -108,16 +110,19 @@ def optimal(
 ) -> tuple[Path, float]:
     """The best path, without repeats or (``variety`` false) with, and the score of the best with.
 
-    A song of up to ``CHAPTER`` seconds is searched as a whole; a longer one in chapters of that length, each knowing
-    ``AHEAD`` seconds of the next, so that memory stays bounded. Then the optimum is that of the chapters.
+    A song of up to ``CHAPTER`` seconds is searched as a whole, and one of which a part is kept; a longer one in
+    chapters of that length, each knowing ``AHEAD`` seconds of the next, so that memory stays bounded. Then the optimum
+    is that of the chapters.
     """
     total, chapter, ahead = problem.music.frames, round(CHAPTER * GRID), round(AHEAD * GRID)
+    if problem.kept is not None:
+        chapter = total  # what is kept later decides what can be danced now
     times: list[int] = []
     entries: list[int] = []
     begin, optimum, start = 0, 0.0, -1
     while begin < total:
         last = total - begin <= chapter + ahead
-        part = replace(problem, music=problem.music.part(begin, total if last else begin + chapter + ahead))
+        part = problem.part(begin, total if last else begin + chapter + ahead)
         value = ValueToGo(part)
         path = beam_path(part, value, start=start) if variety else best_path(value, start=start)
         cut = len(path.times) if last else _cut(problem, path, chapter, total - begin)
@@ -165,6 +170,8 @@ def search(
     rhythm_only: bool = False,
     variety: bool = True,
     seed: int = 0,
+    wished: Wished | None = None,
+    intensity_weight: float | None = None,
     step: Callable[[float], None] | None = None,
 ) -> Found:
     """Plan a dance.
@@ -176,6 +183,8 @@ def search(
     rhythm_only : leave intensity out.
     variety : for ``optimal``, do not show a stretch of a clip twice.
     seed : of ``walk``.
+    wished : what a user wishes; ``walk`` listens to no favourites.
+    intensity_weight : λ; by default ``score.INTENSITY``. The search of 2006 weighs nothing against intensity.
     step : called with the share of the song that is planned.
 
     Raises
@@ -186,7 +195,7 @@ def search(
     begun = time.process_time()
     if method not in METHODS:
         raise PlanError(f"no search method {method!r}; there are {', '.join(METHODS)}")
-    settings = Settings(method, rhythm_only, variety, seed, step)
+    settings = Settings(method, rhythm_only, variety, seed, step, wished, intensity_weight)
     found = settings.whole(library, song) if fits(library) else settings.part(library, song)
     return replace(found, seconds=time.process_time() - begun)
 
@@ -205,39 +214,54 @@ class Settings:
     variety: bool
     seed: int
     step: Callable[[float], None] | None
+    wished: Wished | None = None
+    intensity_weight: float | None = None
 
     def whole(self, library: MoveLibrary, song: Song) -> Found:
-        """By the method asked for, over all frames and joins."""
-        problem = make_problem(library, song, rhythm_only=self.rhythm_only)
+        """By the method asked for, over all frames and joins, or over those of clips that are not forbidden."""
+        part = None
+        if self.wished is not None and self.wished.marks.forbidden.any():
+            part = Part.of(self.wished.allowed(library), library.graph.clip_of)
+        return self.within(library, song, part)
+
+    def within(self, library: MoveLibrary, song: Song, part: Part | None) -> Found:
+        """By the method asked for, over a library or a part of it."""
+        problem = make_problem(
+            library, song, rhythm_only=self.rhythm_only, part=part, intensity_weight=self.intensity_weight
+        )
+        if self.wished is not None:
+            problem = self.wished.wanted(problem, part)
         optimum = None
         if self.method == "optimal":
             path, optimum = optimal(problem, variety=self.variety, step=self.step)
         elif self.method == "greedy":
             path = greedy_path(problem)
         elif self.method == "shiratori2006":
-            path = shiratori2006_path(problem, library, song, rhythm_only=self.rhythm_only)
+            liked = None if self.wished is None else self.wished.liked(part)
+            path = shiratori2006_path(problem, library, song, rhythm_only=self.rhythm_only, part=part, liked=liked)
         else:
             path = random_walk(problem, np.random.default_rng(self.seed))
         return Found(plan_of(problem, library, path, song.duration), path.score, optimum, 0.0)
 
     def part(self, library: MoveLibrary, song: Song) -> Found:
         """Over the part of a great library that is worth it."""
-        music = score_music(song, rhythm_only=self.rhythm_only)
-        part = candidates(library, music)
+        music = score_music(song, rhythm_only=self.rhythm_only, weight=self.intensity_weight)
+        part = candidates(library, music, wished=self.wished)
         bound = float(most_earned(music, z_rank(library.intensity)).sum())
+        if self.wished is not None:
+            bound += music.frames * max(float((self.wished.favour + self.wished.taste).max()), 0.0)
         searched = Searched(part, len(library.graph) / GRID, bound)
-        if self.method == "optimal":
-            problem = make_problem(library, song, rhythm_only=self.rhythm_only, part=part)
-            path, optimum = optimal(problem, variety=self.variety, step=self.step)
-            return Found(plan_of(problem, library, path, song.duration), path.score, optimum, 0.0, searched)
+        if self.method == "optimal" or self.wished is not None:
+            return replace(self.within(library, song, part), searched=searched)
         found = self.whole(cut_library(library, part), song)
         return replace(found, plan=_within(found.plan, library, part), searched=searched)
 
 
-def candidates(library: MoveLibrary, music: Music, frames: int | None = None) -> Part:
+def candidates(library: MoveLibrary, music: Music, frames: int | None = None, wished: Wished | None = None) -> Part:
     """The part of a great library that is worth searching for a song; by default ``PART`` frames for each minute."""
     minutes = max(1.0, music.frames / GRID / 60)
-    return find_part(library, music, (JOIN, ROUGH / ALIKE**2), round(PART * minutes) if frames is None else frames)
+    count = round(PART * minutes) if frames is None else frames
+    return find_part(library, music, (JOIN, ROUGH / ALIKE**2), count, wished=wished)
 
 
 def _within(plan: DancePlan, library: MoveLibrary, part: Part) -> DancePlan:

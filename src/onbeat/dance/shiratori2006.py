@@ -23,10 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from onbeat._shapes import Array, Float32, Ints
+from onbeat._shapes import Array, Bools, Float32, Ints
 from onbeat.dance.greedy import HORIZON, follow
-from onbeat.dance.lookahead import Branches, Roads
-from onbeat.dance.optimal import Path, Problem, score_path
+from onbeat.dance.lookahead import IMPOSSIBLE, Branches, Roads
+from onbeat.dance.optimal import BARRED, NO_WAY, Path, Problem, score_path
+from onbeat.dance.part import Part
 from onbeat.dance.score import PHRASE
 from onbeat.errors import PlanError
 from onbeat.motion.body import Body
@@ -39,6 +40,8 @@ BEST_PATHS = 16
 """How many of the best paths by Eq. 11 are compared by Eq. 12 at most ("several" in the paper)."""
 NEAR = 0.95
 """What part of the best path's Eq. 11 they reach at least: where few branches are, not all of them are best."""
+LEAD = 60
+"""Frames before a kept stretch of another rate from which on its clip may be entered at that rate."""
 TIE = 1e-6
 """What Eq. 12 counts beside Eq. 11 where completions of one branch are alike."""
 
@@ -51,40 +54,55 @@ class Components:
     ----------
     stop, motion : (N,) MC_stop (Eq. 1) and MC_intensity (Eq. 2, m/s) of each frame of the motion graph.
     beat, music : (T,) ASC_beat (Eq. 6) and ASC_intensity (Eq. 7) of each song frame.
+    liked : (N,) what a frame counts in Eq. 11 besides because it is wished for; not in the paper.
+    must : (T,) the frame that a song frame must show, −1 where any may be.
     """
 
     stop: Array
     motion: Array
     beat: Array
     music: Array
+    liked: Array | float = 0.0
+    must: Ints | None = None
 
     def rhythm(self, t: int, ahead: int) -> Array:
         """(H, N) terms of Eq. 11 for ``ahead`` song frames from t on, or to the song's end."""
-        return self.beat[t : t + ahead, None] * self.stop
+        terms = self.beat[t : t + ahead, None] * self.stop + self.liked
+        if self.must is None:
+            return terms
+        must = self.must[t : t + ahead, None]
+        return np.where((must >= 0) & (np.arange(terms.shape[1]) != must), float(BARRED), terms)
 
     def intensity(self, t: int, ahead: int) -> Array:
         """(H, N) terms of Eq. 12."""
         return self.music[t : t + ahead, None] * self.motion
 
 
-def components(library: MoveLibrary, song: Song, frames: int) -> Components:
-    """Read the components off a library and a song of ``frames`` song frames."""
-    stop = [
-        keyframe_component(hand_features(clip.motion, body).stops, np.arange(len(clip.poses)) / GRID)
-        for clip in library.clips
-        for body in (Body.of(clip.motion.skeleton),)
-    ]
+def components(library: MoveLibrary, song: Song, frames: int, part: Part | None = None) -> Components:
+    """Read the components off a library, or a part of it, and a song of ``frames`` song frames."""
+    part = Part.whole(library) if part is None else part
+    stop = np.zeros(len(library.graph))
+    for number in np.unique(part.clip).tolist():
+        clip, begin = library.clips[number], int(library.starts[number])
+        stops = hand_features(clip.motion, Body.of(clip.motion.skeleton)).stops
+        stop[begin : begin + len(clip.poses)] = keyframe_component(stops, np.arange(len(clip.poses)) / GRID)
     degree = song.chord_change if np.any(song.chord_change > 0) else np.ones(len(song.beats))
     beat = np.zeros(frames)
     np.maximum.at(beat, np.clip(np.round(song.beats * GRID).astype(np.int64), 0, frames - 1), degree)
     music = song.intensity_at((np.arange(frames, dtype=np.float64) + 0.5) / GRID)
-    return Components(
-        np.concatenate(stop), library.intensity, beat, gaussian_filter1d(music, PHRASE * GRID, mode="nearest")
-    )
+    music = gaussian_filter1d(music, PHRASE * GRID, mode="nearest")
+    return Components(stop[part.frames], library.intensity[part.frames], beat, music)
 
 
 def shiratori2006_path(
-    problem: Problem, library: MoveLibrary, song: Song, *, rhythm_only: bool = False, horizon_s: float = HORIZON
+    problem: Problem,
+    library: MoveLibrary,
+    song: Song,
+    *,
+    rhythm_only: bool = False,
+    horizon_s: float = HORIZON,
+    part: Part | None = None,
+    liked: Float32 | None = None,
 ) -> Path:
     """The paper's dance, scored by ``problem`` so that it can be held against the others.
 
@@ -93,18 +111,24 @@ def shiratori2006_path(
     problem : of ``library`` and ``song``; its objective is not looked at, only its frames and joins.
     rhythm_only : leave Eq. 12 out, as in the paper's Fig. 8, bottom.
     horizon_s : T, seconds looked ahead.
+    part : the part of the library that the problem is over; the whole by default.
+    liked : (N,) what frames of the problem's graph count in Eq. 11 besides.
 
     Raises
     ------
     PlanError
         If no dance over the joins is as long as the song, or the problem has no rate of 1.
     """
-    roads, shown = _own_rate(problem)
-    parts = components(library, song, roads.frames)
+    roads, shown, begins = _own_rate(problem) if problem.kept is None else _own_rate_and_kept(problem)
+    parts = components(library, song, roads.frames, part)
+    if liked is not None:
+        parts = replace(parts, liked=liked)
+    if problem.kept is not None:
+        parts = _at_all_rates(parts, problem)
     if rhythm_only:
         parts = replace(parts, motion=np.zeros(len(parts.motion)))
     ahead = max(round(horizon_s * GRID), 1)
-    frame = _begin(roads, parts, ahead)
+    frame = _begin(roads, parts, ahead, begins)
     t, times, entries = 0, [0], [frame]
     while t < roads.frames:
         found, chosen = _chosen(roads, parts, frame, t, ahead)
@@ -113,8 +137,8 @@ def shiratori2006_path(
     return Path(np.array(times), laid, score_path(problem, times, laid))
 
 
-def _own_rate(problem: Problem) -> tuple[Roads, Ints]:
-    """The graph's own frames as roads without costs, and the virtual frame of each at rate 1."""
+def _own_rate(problem: Problem) -> tuple[Roads, Ints, Bools]:
+    """The graph's own frames as roads without costs, the virtual frame of each at rate 1, and where to begin."""
     laid, graph = problem.frames, problem.graph
     rates = np.flatnonzero(np.abs(laid.rate[laid.entry[:, 0]] - 1.0) < 1e-9)
     if not len(rates):
@@ -131,7 +155,40 @@ def _own_rate(problem: Problem) -> tuple[Roads, Ints]:
         entries=entries,
         seams=_no_seams(graph.join_count),
     )
-    return roads, shown
+    return roads, shown, np.ones(len(nodes), bool)
+
+
+def _own_rate_and_kept(problem: Problem) -> tuple[Roads, Ints, Bools]:
+    """All virtual frames as roads without costs, entered at rate 1, or at that of a kept stretch on the way to it."""
+    laid, must = problem.frames, problem.must[problem.must >= 0].astype(np.int64)
+    open_to = np.abs(laid.rate - 1.0) < 1e-9
+    back = np.minimum(LEAD, must[:, None] - _row_starts(laid.left)[must][:, None])
+    open_to[(must[:, None] - np.minimum(np.arange(LEAD + 1), back)).ravel()] = True
+    entry = np.where((laid.entry >= 0) & open_to[laid.entry], laid.entry, -1)
+    own = replace(
+        problem,
+        frames=replace(laid, entry=entry),
+        join_costs=np.zeros(problem.graph.join_count, np.float32),
+        seams=None,
+    )
+    return Roads.of(own), np.arange(len(laid)), open_to
+
+
+def _row_starts(left: Ints) -> Ints:
+    """(M,) where the frames of the same clip and rate begin."""
+    return np.concatenate(([0], np.flatnonzero(left == 0) + 1))[np.cumsum(np.concatenate(([0], left[:-1] == 0)))]
+
+
+def _at_all_rates(parts: Components, problem: Problem) -> Components:
+    """Components of virtual frames instead of the graph's, and what must be shown."""
+    base, liked = problem.frames.base, np.asarray(parts.liked)
+    return replace(
+        parts,
+        stop=parts.stop[base],
+        motion=parts.motion[base],
+        liked=liked[base] if liked.ndim else 0.0,
+        must=problem.must,
+    )
 
 
 def _no_seams(joins: int) -> tuple[NDArray[np.int32], NDArray[np.int32], Float32, Float32]:
@@ -139,12 +196,15 @@ def _no_seams(joins: int) -> tuple[NDArray[np.int32], NDArray[np.int32], Float32
     return np.zeros(joins + 1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32), np.zeros(joins, np.float32)
 
 
-def _begin(roads: Roads, parts: Components, ahead: int) -> int:
+def _begin(roads: Roads, parts: Components, ahead: int, begins: Bools) -> int:
     """The frame to begin with: the ``BEST_PATHS`` best by Eq. 11, of these the best by Eq. 12."""
     rhythm, intensity = parts.rhythm(0, ahead), parts.intensity(0, ahead)
     table = rhythm + TIE * intensity
     values = roads.values(0, table)
-    best = _best(values[0])
+    worth = np.where(begins, values[0], IMPOSSIBLE)
+    if worth.max() < BARRED / 2:
+        raise PlanError(NO_WAY)
+    best = _best(worth)
     sums = [_along(roads, (table, intensity, values), 0, int(f), 0) for f in best]
     return int(best[int(np.argmax(sums))])
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from onbeat.dance.optimal import Path, Problem, ValueToGo, best_entries, rewards, score_path, seam
+from onbeat.dance.optimal import BARRED, Path, Problem, ValueToGo, best_entries, rewards, score_path, seam
 
 BEAM = 600
 """Partial dances kept at each song frame."""
@@ -104,6 +104,7 @@ def _advance(
     idle,
     beats,
     music,
+    must,
     seam_ptr,
     seam_at,
     seam_sign,
@@ -129,7 +130,7 @@ def _advance(
     candidates = np.empty(width * fan, np.float64)
     origin, target = np.empty(len(candidates), np.int64), np.empty(len(candidates), np.int64)
     scratch = np.zeros((1, words), np.uint64)
-    floor = -1e29
+    floor = BARRED / 2
     for t in range(begin, end):
         span = min(hold, frames - t)
         if t > 0:  # sums along the diagonals, those at t from those at t − 1
@@ -138,7 +139,7 @@ def _advance(
                 sums[f] = sums[f - 1] - old[f - 1]
             if t - 1 + hold < frames:
                 new = rings[(t - 1) % hold]
-                rewards(t - 1 + hold, new, stops, worth, shift, motion, idle, beats, music)
+                rewards(t - 1 + hold, new, stops, worth, shift, motion, idle, beats, music, must)
                 for f in range(1, size - hold + 1):
                     sums[f] += new[f + hold - 1]
             sums[0] = 0.0  # no diagonal comes from before the first frame: its sum is made anew
@@ -151,7 +152,7 @@ def _advance(
         n = count[slot]
         for s in range(n):
             candidates[s] = gain[slot, s] + buffer[t - begin, where[slot, s]]
-        threshold = _highest(candidates, n, width // 2)
+        threshold = max(_highest(candidates, n, width // 2), BARRED / 2)
         kept = 0
         for s in range(n):
             if candidates[s] >= threshold:
@@ -171,7 +172,9 @@ def _advance(
                     candidates[many], origin[many], target[many] = bound, s, which[goal_of[e]]
                     many += 1
         threshold = _highest(candidates, many, width)
-        floor = max(threshold - 1.5 * repeat, -1e29)  # joins far under what was kept a moment ago are not looked at
+        floor = max(
+            threshold - 1.5 * repeat, BARRED / 2
+        )  # joins far under what was kept a moment ago are not looked at
         for c in range(many):
             if candidates[c] < threshold:
                 continue
@@ -180,7 +183,7 @@ def _advance(
             for k in range(span):
                 if block[g + k] != last:
                     last = block[g + k]
-                    if _shown(history[slot], origin[c], last):
+                    if must[t + k] < 0 and _shown(history[slot], origin[c], last):
                         candidates[c] -= repeat
         threshold = max(threshold - 0.5 * repeat, _highest(candidates, many, width // 2))
         arrival = (t + span) % slots
@@ -223,7 +226,7 @@ def _advance(
             earned = gain[slot, s] + row_now[f]
             g = f + 1 if left[f] > 0 else f
             fresh = t > 0 and block[f] != block[f - 1]  # f is shown now, and f − 1 was shown before it
-            if fresh and _shown(history[slot], s, block[f]):
+            if fresh and must[t] < 0 and _shown(history[slot], s, block[f]):
                 earned -= repeat
             row = _seat(g, frames + t, earned, gain[slot_next], m, stamp, place, held)
             if row < 0:
@@ -264,6 +267,8 @@ def beam_path(
         nodes[0][s], nodes[1][s], nodes[2][s] = -1, 0, f
         for block in np.unique(laid.block[f : f + max(held, 1)]).tolist():
             state[3][held, s, block >> 6] |= np.uint64(1) << np.uint64(block & 63)
+        for block in kept_blocks(problem).tolist():
+            state[3][held, s, block >> 6] |= np.uint64(1) << np.uint64(block & 63)
     state[4][held] = len(starts)
     free, t = len(starts), 0
     rings = np.zeros((problem.hold, len(laid)), np.float32)
@@ -280,12 +285,20 @@ def beam_path(
     return _walk_back(problem, nodes, int(state[2][last, winner]))
 
 
+def kept_blocks(problem: Problem) -> np.ndarray:
+    """The stretches of source that kept frames show wholly: no other part of the dance is to show them again."""
+    must = problem.must[problem.must >= 0].astype(np.int64)
+    runs = np.split(problem.frames.block[must], np.flatnonzero(np.diff(must) != 1) + 1)
+    inside = [run[(run != run[0]) & (run != run[-1])] for run in runs if len(run)]
+    return np.unique(np.concatenate([*inside, np.zeros(0, np.int64)]))
+
+
 def _first_sums(problem: Problem, rings: np.ndarray) -> np.ndarray:
     """Sums of the first rewards along the diagonals from song frame 0; ``rings`` takes the rewards."""
     size = len(problem.frames)
     sums = np.zeros(size)
     for k in range(min(problem.hold, problem.music.frames)):
-        rewards(k, rings[k], *problem.arrays[6:13])
+        rewards(k, rings[k], *problem.worth)
         sums[: size - k] += rings[k][k:]
     return sums
 

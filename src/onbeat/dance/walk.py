@@ -42,6 +42,9 @@ def random_walk(problem: Problem, rng: np.random.Generator) -> Path:
 
 def _beginnings(roads: Roads) -> Ints:
     """Frames with which the dance can begin: they are shown, and what comes after is as long as the song."""
+    if roads.reach is not None:
+        begins = roads.ahead(0)[1][1:] & (roads.left[:-1] > 0) if roads.frames > 1 else roads.ahead(0)[0][:-1]
+        return np.flatnonzero(begins)
     lasts = roads.left + 1 >= roads.frames
     lasts[:-1] |= (roads.left[:-1] > 0) & (roads.survival[1:] >= roads.frames - 1)
     return np.flatnonzero(lasts)
@@ -52,13 +55,15 @@ def _joins_after(problem: Problem, roads: Roads, t: int, frame: int, wish: int) 
 
     Where there is none the last before it is taken, unless the clip lasts to the song's end: then none.
     """
-    total, hold, left = roads.frames, roads.hold, int(roads.left[frame])
-    lasts = left + 1 >= total - t
-    longest = min(left, total - t - 1)
+    total, left = roads.frames, int(roads.left[frame])
+    free = roads.free(t, frame)
+    lasts = min(left + 1, free) >= total - t
+    longest = min(left, free, total - t - 1)
     later, sooner = range(wish, longest + 1), range(min(wish - 1, longest), -1 if t else 0, -1)
     for wait in (*later, *(() if lasts else sooner)):
         goals, _ = joins_from(problem, frame + wait, t + wait)
-        goals = goals[roads.survival[np.minimum(goals + hold, len(roads) - 1)] >= total - t - wait - hold]
+        if len(goals):
+            goals = goals[roads.enterable(t + wait, goals)]
         if len(goals):
             return wait, goals
     return 0, np.zeros(0, np.int64)

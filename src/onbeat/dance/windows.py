@@ -20,12 +20,12 @@ SAMPLES = 13
 """Times in a window at which the speed of links is looked at."""
 
 
-def fitted_windows(sources: Sources, blend: Blend, peaks: Array) -> Windows:
+def fitted_windows(sources: Sources, blend: Blend, peaks: Array, settled: Array | None = None) -> Windows:
     """A window for each join, bounded to ``SHORTEST``…``LONGEST`` and to less than the moves beside it.
 
     Shiratori 2006, Sec. IV-B: the duration follows from the angular distance of the poses and the greatest angular
     velocities ``peaks`` in rad/s of the links in the data, (J,) or (K, J) for each join. Spans are tried from the
-    shortest up.
+    shortest up. Where ``settled`` (K,) is not NaN the window lasts so long.
     """
     peaks = np.broadcast_to(peaks, (len(sources.joins), len(sources.skeleton)))
     lengths = np.diff(np.concatenate((sources.starts, [sources.plan.duration])))
@@ -38,6 +38,8 @@ def fitted_windows(sources: Sources, blend: Blend, peaks: Array) -> Windows:
         spans[waiting] = np.minimum(span, room[waiting])
         too_fast = _too_fast(sources, Windows(sources.joins, spans), waiting, blend, peaks)
         waiting = waiting[too_fast & (room[waiting] > span)]
+    if settled is not None:
+        spans = np.where(np.isfinite(settled), settled, spans)
     return Windows(sources.joins, spans)
 
 
