@@ -14,9 +14,9 @@ npx tsc --noEmit
 fresh=$(mktemp -d)
 trap 'rm -rf "$fresh"' EXIT
 node build.mjs "$fresh" >&2
-for page in dance.html live.html; do
-  if ! cmp -s "$fresh/$page" "../src/onbeat/viewer/static/$page"; then
-    echo "src/onbeat/viewer/static/$page is not current: run \`npm run build\` in viewer-js and commit it" >&2
+for page in viewer/static/dance.html viewer/static/live.html studio/static/studio.html; do
+  if ! cmp -s "$fresh/${page##*/}" "../src/onbeat/$page"; then
+    echo "src/onbeat/$page is not current: run \`npm run build\` in viewer-js and commit it" >&2
     exit 1
   fi
 done

@@ -2,13 +2,11 @@
 
 import sys
 
-import msgspec
-
 import onbeat
 from onbeat.examples import embedded_song
 from onbeat.files import make_folder, write_atomically
 from onbeat.moves.embedded import embedded_library
-from onbeat.viewer.page import write_page
+from onbeat.viewer.dance_page import write_dance_page
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
@@ -22,4 +20,4 @@ for move in dance.document.moves:
 
 onbeat.write_motion(dance.motion, folder / "dance.bvh")
 write_atomically(folder / "dance.json", dance.document.to_json())
-write_page(folder / "dance.html", dance.motion, dance.song, msgspec.to_builtins(dance.document), (samples, rate))
+write_dance_page(folder / "dance.html", dance, library, (samples, rate))

@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -16,8 +17,9 @@ from onbeat.errors import OnbeatError
 from onbeat.motion import Motion, Skeleton
 from onbeat.music.song import Song
 from onbeat.viewer.content import page_data
-from onbeat.viewer.contract import VERSION, PageData, unpack_curve, unpack_path
-from onbeat.viewer.page import render_page, write_page
+from onbeat.viewer.contract import VERSION, ClipData, GraphData, JoinData, PageData, unpack_curve, unpack_path
+from onbeat.viewer.graph_drawn import CLIPS, JOINS
+from onbeat.viewer.page import filled, render_page, write_page
 
 HOSTILE = '</script><script>alert("1")</script><!-- \u2028 &amp; <img src=x onerror=alert(2)>'
 VIEWER_JS = Path(__file__).resolve().parents[2] / "viewer-js"
@@ -80,9 +82,13 @@ def test_frames_past_sixty_a_second_are_left_out(swinger: Motion) -> None:
     assert page_data(swinger).fps == 60.0
 
 
-def test_it_is_small(swinger: Motion) -> None:
+def test_a_minute_is_small(swinger: Motion) -> None:
     minute = swinger.at(np.arange(3600) / 60 % 4)
-    assert len(render_page(minute)) < 3_000_000
+    clips = [ClipData(f"a clip with a long name {k}", 12.345) for k in range(CLIPS)]
+    graph = GraphData(clips, [JoinData(k % CLIPS, 12.345, 7, 6.789) for k in range(JOINS)], 3000, 40_000_000)
+    size = len(filled(msgspec.structs.replace(page_data(minute), graph=graph)))
+    print(f"a page of 60 s is {size / 1e6:.2f} MB without its sound")
+    assert size < 3_000_000
 
 
 def test_names_cannot_break_out(swinger: Motion, song: Song) -> None:

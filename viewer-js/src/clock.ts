@@ -1,8 +1,10 @@
-// The time of the dance. Where there is sound, the audio context's clock leads, as it is heard at the loudspeaker; it
-// ticks coarsely, so that the time in between is followed by the screen's clock and gently pulled to it.
+// The time of the dance. Where there is sound, the audio context's clock leads, as it is heard at the loudspeaker; at
+// other speeds than 1 that of a media element, which keeps the pitch. Both tick coarsely, so that the time in between is
+// followed by the screen's clock and gently pulled to them.
 
 import type { AudioData } from "./contract";
 import { bytesOf } from "./data";
+import { Stretched } from "./stretched";
 
 const SNAP = 0.08; // [s] an error that is jumped, not pulled
 const PULL = 3; // [1/s]
@@ -16,6 +18,8 @@ export class Clock {
   private context?: AudioContext;
   private buffer?: AudioBuffer;
   private source?: AudioBufferSourceNode;
+  private stretched?: Stretched; // made when another speed is first asked for
+  private keepsPitch = true;
   private silent = 0; // [s] before the song in the sound
   private origin = 0; // time of the dance at `mark`
   private mark = 0; // [s] of the leading clock
@@ -26,6 +30,10 @@ export class Clock {
     readonly duration: number,
     private readonly withSound: boolean,
   ) {}
+
+  private get isStretched(): boolean {
+    return this.rate !== 1 && this.keepsPitch;
+  }
 
   get hasSound(): boolean {
     return this.buffer !== undefined;
@@ -66,19 +74,32 @@ export class Clock {
   setRate(rate: number): void {
     const at = this.now(performance.now());
     this.rate = rate;
+    if (rate !== 1) this.prepare();
     if (this.playing) this.restart(at);
+  }
+
+  /** Makes ready for other speeds than 1, which may take a moment. */
+  prepare(): void {
+    if (this.buffer && this.keepsPitch) this.stretched ??= new Stretched(this.buffer, this.silent, () => this.forgoPitch());
+  }
+
+  /** Second of the song that is heard now, as its sound says by itself; undefined where nothing sounds. */
+  heard(): number | undefined {
+    if (!this.playing || !this.buffer) return undefined;
+    if (this.isStretched) return this.stretched?.heard;
+    return this.source && this.context?.state === "running" ? this.led(performance.now()) : undefined;
   }
 
   /** Seconds of the dance at the screen's time `now` in milliseconds. */
   now(now: number): number {
     if (!this.playing) return this.shown;
-    const heard = this.origin + (this.leading(now) - this.mark) * this.rate;
+    const heard = this.led(now);
     if (heard <= this.origin) {
       this.shownAt = now; // the first sound is still on its way
       return this.shown;
     }
     const passed = Math.max(now - this.shownAt, 0) / 1000;
-    const stopped = this.buffer !== undefined && this.context?.state !== "running";
+    const stopped = this.buffer !== undefined && !this.isStretched && this.context?.state !== "running";
     const guess = this.shown + (stopped ? 0 : passed * this.rate);
     const error = heard - guess;
     const pulled = guess + error * Math.min(1, passed * PULL);
@@ -89,7 +110,10 @@ export class Clock {
 
   /** The audio context, and its time at which a second of the dance sounds; undefined while nothing sounds. */
   sounding(time: number): { context: AudioContext; at: number } | undefined {
-    if (!this.playing || !this.source || !this.context) return undefined;
+    if (!this.playing || !this.context) return undefined;
+    const heard = this.isStretched ? this.stretched?.heard : undefined;
+    if (heard !== undefined) return { context: this.context, at: this.context.currentTime - latency(this.context) + (time - heard) / this.rate };
+    if (!this.source) return undefined;
     return { context: this.context, at: this.mark + (time - this.origin) / this.rate };
   }
 
@@ -97,7 +121,8 @@ export class Clock {
     this.silence();
     this.origin = this.shown = at;
     this.shownAt = performance.now();
-    if (this.buffer) this.startSound(this.buffer, at);
+    if (this.buffer && this.isStretched) this.startStretched(this.buffer, at);
+    else if (this.buffer) this.startSound(this.buffer, at);
     else this.mark = performance.now() / 1000;
   }
 
@@ -120,18 +145,41 @@ export class Clock {
     this.source.start(this.mark, at + this.silent);
   }
 
+  /** The screen's clock leads past the sound's end, and until the sound begins nothing moves. */
+  private startStretched(buffer: AudioBuffer, at: number): void {
+    this.prepare();
+    this.mark = performance.now() / 1000;
+    if (at + this.silent < buffer.duration) this.stretched?.start(at, this.rate);
+  }
+
+  /** Where no media element plays, other speeds have another pitch. */
+  private forgoPitch(): void {
+    const at = this.shown;
+    this.keepsPitch = false;
+    if (this.playing) this.restart(at);
+  }
+
   private silence(): void {
     this.turns++;
+    this.stretched?.stop();
     this.source?.stop();
     this.source?.disconnect();
     this.source = undefined;
   }
 
+  /** Second of the dance as the clock that leads has it. */
+  private led(now: number): number {
+    const timed = this.origin + (this.leading(now) - this.mark) * this.rate;
+    if (!this.buffer || !this.isStretched) return timed;
+    if (this.stretched?.over || this.origin + this.silent >= this.buffer.duration) return Math.max(timed, this.shown);
+    return this.stretched?.heard ?? this.origin;
+  }
+
   /** Seconds of the clock that leads: what leaves the loudspeaker now, or the screen's time. */
   private leading(now: number): number {
     const context = this.context;
-    if (!context || !this.buffer) return now / 1000;
-    const delayed = context.currentTime - (context.outputLatency || 0);
+    if (!context || !this.buffer || this.isStretched) return now / 1000;
+    const delayed = context.currentTime - latency(context);
     const stamp = context.getOutputTimestamp?.();
     if (context.state !== "running" || !stamp?.contextTime || !stamp.performanceTime) return delayed;
     // Just after a pause the stamp may be from before it.
@@ -139,4 +187,8 @@ export class Clock {
     const behind = context.currentTime - output;
     return behind > -0.03 && behind < 0.5 ? output : delayed;
   }
+}
+
+function latency(context: AudioContext): number {
+  return context.outputLatency || 0;
 }

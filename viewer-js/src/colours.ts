@@ -1,5 +1,7 @@
 // Clip colours: one hue a clip, far from those before it.
 
+import { paint } from "./palette";
+
 const TURN = 137.508; // [degrees], the golden angle
 const FIRST = 205;
 
@@ -13,14 +15,18 @@ export class ClipColours {
   }
 
   fill(clip: string): string {
-    return `hsl(${this.hues.get(clip) ?? FIRST} 52% 82%)`;
+    return this.hsl(clip, paint.dark ? "34% 27%" : "52% 82%");
   }
 
   ink(clip: string): string {
-    return `hsl(${this.hues.get(clip) ?? FIRST} 48% 30%)`;
+    return this.hsl(clip, paint.dark ? "70% 86%" : "52% 24%");
   }
 
   strong(clip: string): string {
-    return `hsl(${this.hues.get(clip) ?? FIRST} 55% 52%)`;
+    return this.hsl(clip, paint.dark ? "62% 62%" : "55% 48%");
+  }
+
+  private hsl(clip: string, rest: string): string {
+    return `hsl(${this.hues.get(clip) ?? FIRST} ${rest})`;
   }
 }

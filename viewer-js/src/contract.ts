@@ -1,6 +1,6 @@
 // Written by `python -m onbeat.viewer.typescript` from contract.py. Do not edit.
 
-export const VERSION = 4;
+export const VERSION = 5;
 
 /** A tapering capsule between two joints of the page; see :mod:`onbeat.viewer.shape`. */
 export interface CapsuleData {
@@ -91,6 +91,45 @@ export interface ComparedData {
   apart: number;
 }
 
+/** A foot, ``left`` or ``right``, that stands: when, where its middle is, the yaw it points to, and how long it is. */
+export interface StepData {
+  foot: string;
+  from_s: number;
+  to_s: number;
+  x: number;
+  y: number;
+  yaw: number;
+  length: number;
+}
+
+/** A clip of the library: its name and its seconds. */
+export interface ClipData {
+  name: string;
+  seconds: number;
+}
+
+/** A join of the motion graph: out of one of its clips, by number, at a second of it, into another. */
+export interface JoinData {
+  clip: number;
+  from_s: number;
+  next_clip: number;
+  to_s: number;
+}
+
+/** The motion graph: clips danced and a sample of others, joins between them, and how many of both there are. */
+export interface GraphData {
+  clips: ClipData[];
+  joins: JoinData[];
+  clip_count: number;
+  join_count: number;
+}
+
+/** The time warp: at ``times`` of the dance is shown what was at ``before`` without it; linear between them. */
+export interface WarpData {
+  times: number[];
+  before: number[];
+}
+
 /** Everything the page shows. */
 export interface PageData {
   version: number;
@@ -119,4 +158,7 @@ export interface PageData {
   motion_intensity: CurveData;
   metrics: MetricData[];
   compared: ComparedData | null;
+  steps: StepData[];
+  graph: GraphData | null;
+  warp: WarpData | null;
 }

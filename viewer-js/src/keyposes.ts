@@ -119,7 +119,7 @@ class View {
     const pen = canvas.getContext("2d") as CanvasRenderingContext2D;
     pen.scale(sharp, sharp);
     pen.lineCap = "round";
-    pen.fillStyle = "#e3e6eb";
+    pen.fillStyle = "rgba(130, 142, 170, 0.26)"; // in a dark room too
     pen.beginPath();
     pen.ellipse(WIDTH / 2, HEIGHT - 4, 0.38 * scale, 3.2, 0, 0, 2 * Math.PI);
     pen.fill();

@@ -3,11 +3,8 @@
 import type { ClipColours } from "./colours";
 import type { EnergyData, PageData } from "./contract";
 import { type Curve, lastBefore, readCurve } from "./data";
+import { paint } from "./palette";
 
-export const INK = "#262b3d";
-export const SOFT = "#8d93a5";
-export const FAINT = "#c6cad5";
-export const ACCENT = "#e2583e";
 export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 
 /** A stretch of time laid on pixels. */
@@ -23,7 +20,7 @@ export const timeAt = (span: Span, x: number): number => span.from + (x / span.w
 type Pen = CanvasRenderingContext2D;
 
 /** Calls `draw` for each of the sorted times inside the span. */
-function inside(times: readonly number[], span: Span, margin: number, draw: (time: number) => void): void {
+export function inside(times: readonly number[], span: Span, margin: number, draw: (time: number) => void): void {
   for (let i = lastBefore(times, span.from - margin) + 1; i < times.length && times[i] <= span.to + margin; i++) {
     draw(times[i]);
   }
@@ -33,7 +30,7 @@ export function drawBeats(pen: Pen, span: Span, page: PageData, top: number, bot
   const downbeats = new Set(page.downbeats);
   inside(page.beats, span, 0, (time) => {
     const first = downbeats.has(time);
-    pen.fillStyle = first ? SOFT : FAINT;
+    pen.fillStyle = first ? paint.soft : paint.faint;
     pen.fillRect(Math.round(xOf(span, time)) - (first ? 1 : 0.5), top, first ? 2 : 1, bottom - top);
   });
 }
@@ -79,7 +76,7 @@ export function drawClips(
 }
 
 /** As much of a name as has room, with an ellipsis where some is left out; nothing where too little is left. */
-function shortened(pen: Pen, name: string, room: number): string {
+export function shortened(pen: Pen, name: string, room: number): string {
   if (pen.measureText(name).width <= room) return name;
   let [fits, length] = [0, name.length];
   while (fits < length) {
@@ -90,7 +87,7 @@ function shortened(pen: Pen, name: string, room: number): string {
   return fits < 3 ? "" : `${name.slice(0, fits).trimEnd()}…`;
 }
 
-function rounded(pen: Pen, x: number, y: number, width: number, height: number, radius: number): void {
+export function rounded(pen: Pen, x: number, y: number, width: number, height: number, radius: number): void {
   if (!pen.roundRect) return pen.fillRect(x, y, width, height); // browsers of before 2023
   pen.beginPath();
   pen.roundRect(x, y, width, height, radius);
@@ -102,7 +99,7 @@ export function drawStops(pen: Pen, span: Span, page: PageData, middle: number, 
     const x = xOf(span, time);
     const flash = now >= time ? Math.max(0, 1 - (now - time) / 0.35) : 0;
     const reach = size * (1 + 0.6 * flash);
-    pen.fillStyle = flash > 0 ? ACCENT : INK;
+    pen.fillStyle = flash > 0 ? paint.accent : paint.ink;
     pen.beginPath();
     pen.moveTo(x, middle - reach);
     pen.lineTo(x + reach, middle);
@@ -112,8 +109,11 @@ export function drawStops(pen: Pen, span: Span, page: PageData, middle: number, 
   });
 }
 
-export const KEYPOSE_COLOURS: Record<string, string> = { global: "#1f3f77", local: "#c2611a", kept: "#1f3f77" };
-const OTHER = "#5b6472";
+/** The colour of what rests in a keypose. */
+export function keyposeColour(source: string): string {
+  if (source === "local") return paint.local;
+  return source === "global" || source === "kept" ? paint.global : paint.other;
+}
 
 /** Numbered marks, round or square as what rests there, on lines down to `bottom`; dots where they would crowd. */
 export function drawKeyposes(
@@ -131,13 +131,13 @@ export function drawKeyposes(
     const reach = i === shown ? size + 1.5 : size;
     const half = Math.max(reach, 2 + 3.4 * String(keypose.number).length);
     const numbered = crowded ? i === shown : x - half > free;
-    pen.fillStyle = i === shown ? ACCENT : (KEYPOSE_COLOURS[keypose.source] ?? OTHER);
+    pen.fillStyle = i === shown ? paint.accent : keyposeColour(keypose.source);
     pen.globalAlpha = 0.5;
     if (bottom > middle) pen.fillRect(x - 0.75, middle, 1.5, bottom - middle);
     pen.globalAlpha = 1;
     if (!numbered) return rounded(pen, x - 2, middle - 3, 4, 6, keypose.source === "local" ? 0 : 2);
     rounded(pen, x - half, middle - reach, 2 * half, 2 * reach, keypose.source === "local" ? 2 : reach);
-    pen.fillStyle = "#ffffff";
+    pen.fillStyle = paint.dark ? "#12141c" : "#ffffff";
     pen.fillText(String(keypose.number), x, middle + 0.5);
     free = x + half;
   });
@@ -155,7 +155,7 @@ export function keyposeAt(span: Span, page: PageData, x: number, within: number)
 }
 
 export function drawJoins(pen: Pen, span: Span, page: PageData, top: number, bottom: number): void {
-  pen.strokeStyle = INK;
+  pen.strokeStyle = paint.ink;
   pen.lineWidth = 1;
   pen.setLineDash([2, 3]);
   pen.beginPath();
@@ -182,7 +182,7 @@ export function drawCurve(pen: Pen, span: Span, curve: Curve, top: number, botto
   }
   if (fill) {
     pen.lineTo(xOf(span, (curve.values.length - 1) / curve.rate), bottom);
-    pen.lineTo(0, bottom);
+    pen.lineTo(xOf(span, first / curve.rate), bottom);
     pen.fillStyle = colour;
     pen.fill();
   } else {
@@ -207,10 +207,10 @@ export function drawEnergy(
   pen: Pen, span: Span, energies: EnergyCurves, top: number, bottom: number, marked: boolean,
 ): void {
   for (const { name, curve, candidates } of energies) {
-    const colour = KEYPOSE_COLOURS[name];
+    const colour = keyposeColour(name);
     drawCurve(pen, span, curve, top, bottom, colour, false);
     if (!marked) continue;
-    pen.fillStyle = "#ffffff";
+    pen.fillStyle = paint.band;
     inside(candidates, span, 1, (time) => {
       const level = curve.values[Math.round(time * curve.rate)] ?? 0;
       const [x, y] = [xOf(span, time), bottom - level * (bottom - top)];

@@ -5,45 +5,45 @@ import { Clicks } from "./clicks";
 import { Clock } from "./clock";
 import { ClipColours } from "./colours";
 import type { PageData } from "./contract";
+import { Controls, type Parts } from "./controls";
 import { lastBefore, readPage } from "./data";
 import { Dancer } from "./dancer";
+import { at } from "./elements";
+import { Ghosts } from "./ghosts";
+import { GraphPanel } from "./graph_panel";
 import { Heat } from "./heat";
 import { Keyposes } from "./keyposes";
+import { Loop } from "./loop";
+import { Marks } from "./marks";
 import { Master } from "./master";
 import { Panel } from "./panel";
 import { StoredPath } from "./path";
+import { reachOf } from "./presets";
+import { Room } from "./room";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
+import { Tip } from "./tip";
 
 function start(): void {
   const page = readPage();
-  const clock = new Clock(page.duration, page.audio !== null);
-  const colours = new ClipColours(page.moves.map((move) => move.clip));
-  const stage = stageOf(page);
-  let caughtUp = true;
-  const seek = (time: number): void => {
-    clock.seek(time);
-    caughtUp = false;
-  };
-  const now = (): number => clock.now(performance.now());
-  const clicks = new Clicks(clock, page);
-  const keyposes = new Keyposes(page, clock, element("poses"), element("keypose"), seek);
-  const panel = new Panel(page, clock, stage, colours, clicks, keyposes, seek);
-  const [detail, overview] = [element("detail"), element("overview")] as HTMLCanvasElement[];
-  const timeline = new Timeline(detail, overview, page, colours, seek, now);
+  const parts = partsOf(page);
+  const { clock, stage, clicks, keyposes, panel, timeline, loop, graph, now } = parts;
+  const controls = new Controls(parts);
+  loop.changed = parts.theme.changed = () => controls.tell();
   keyposes.draw(stage.dancer);
   let before = performance.now();
   const frame = (at: number): void => {
     const time = clock.now(at);
     const beat = lastBeat(page, time);
     stage.draw(time, Math.min((at - before) / 1000, 0.1), beat.since, clock.playing ? beat.strength : 0);
-    if (!caughtUp) stage.catchUp();
-    caughtUp = true;
     timeline.draw(time);
+    graph.draw(time);
     clicks.update(time);
     keyposes.update(time);
     panel.update(time, beat.since);
-    if (clock.playing && time >= page.duration) clock.pause();
+    const again = clock.playing ? loop.next(time) : undefined;
+    if (again !== undefined) parts.seek(again);
+    else if (clock.playing && time >= page.duration) clock.pause();
     before = at;
     requestAnimationFrame(frame);
   };
@@ -51,19 +51,49 @@ function start(): void {
   if (page.audio) {
     clock.load(page.audio).catch((error: unknown) => panel.say(`This browser cannot play the sound: ${String(error)}`));
   }
-  expose(page, clock, stage, clicks, keyposes, seek);
+  expose(parts, now);
+}
+
+/** All that the page is made of. */
+function partsOf(page: PageData): Parts & { theme: Room } {
+  const path = new StoredPath(page);
+  const clock = new Clock(page.duration, page.audio !== null);
+  const stage = stageOf(page, path);
+  const now = (): number => clock.now(performance.now());
+  const seek = (time: number): void => {
+    clock.seek(time);
+    stage.jump();
+  };
+  const colours = new ClipColours(page.moves.map((move) => move.clip));
+  const loop = new Loop(page.duration, page.moves.map((move) => move.at_s));
+  const clicks = new Clicks(clock, page);
+  const keyposes = new Keyposes(page, clock, at("poses"), at("keypose"), seek);
+  const panel = new Panel(page, clock, stage, colours);
+  const tip = new Tip(at("tip"));
+  const [detail, overview] = [at<HTMLCanvasElement>("detail"), at<HTMLCanvasElement>("overview")];
+  const timeline = new Timeline(detail, overview, page, colours, seek, now, loop, () => clock.playing);
+  tip.watch(detail, (x, y) => timeline.sayDetail(x, y));
+  tip.watch(overview, (x) => timeline.sayOverview(x));
+  const [marks, ghosts] = [new Marks(page.steps, page.floor), new Ghosts(page, path)];
+  stage.add(marks);
+  stage.add(ghosts);
+  const graph = new GraphPanel(page, colours, seek, now, tip);
+  const theme = new Room(stage, panel);
+  return { page, clock, stage, clicks, keyposes, panel, timeline, loop, marks, ghosts, graph, theme, seek, now };
 }
 
 /** The dancer on its stage, with whom it is held against. */
-function stageOf(page: PageData): Stage {
+function stageOf(page: PageData, path: StoredPath): Stage {
   const compared = page.compared;
   const heat = compared?.heat ? new Heat(compared.heat, page.joints.length, page.fps) : undefined;
-  const dancer = new Dancer(page, new StoredPath(page), heat);
+  const dancer = new Dancer(page, path, heat);
   const company = compared && {
     master: new Master(compared, page, dancer.height),
     captions: compared.captions.map((words) => new Caption(words, page.floor, dancer.height)),
   };
-  return new Stage(element("scene") as HTMLCanvasElement, page, dancer, company ?? undefined);
+  const stage = new Stage(at<HTMLCanvasElement>("scene"), page, dancer, company ?? undefined);
+  stage.survey(reachOf(path, page.joints.length, page.spine[0], page.duration, page.floor + 0.5 * dancer.height));
+  return stage;
 }
 
 function lastBeat(page: PageData, time: number): { since: number; strength: number } {
@@ -75,15 +105,16 @@ function lastBeat(page: PageData, time: number): { since: number; strength: numb
 }
 
 /** A small door for scripts and tests: `onbeat.state()`, `onbeat.seek(12)`, `onbeat.play()`, `onbeat.pause()`. */
-function expose(
-  page: PageData, clock: Clock, stage: Stage, clicks: Clicks, keyposes: Keyposes, seek: (time: number) => void,
-): void {
+function expose({ page, clock, stage, clicks, keyposes, loop, marks, ghosts, timeline, seek }: Parts, now: () => number): void {
   const state = () => ({
-    time: clock.now(performance.now()),
+    time: now(),
+    heard: clock.heard() ?? null,
+    posed: stage.posed,
     playing: clock.playing,
+    rate: clock.rate,
     sound: clock.hasSound,
     clicks: clicks.sounded,
-    keypose: keyposes.at(clock.now(performance.now())),
+    keypose: keyposes.at(now()),
     duration: page.duration,
     names: page.joints,
     joints: Array.from(stage.dancer.joints),
@@ -91,18 +122,21 @@ function expose(
     master: stage.master?.place ?? null,
     size: stage.master?.dancer.group.scale.x ?? 1,
     other: Array.from(stage.master?.dancer.joints ?? []),
+    view: stage.view ?? null,
+    follow: stage.follow,
+    camera: stage.eye,
+    loop: loop.chosen ? [loop.from, loop.to, loop.on] : null,
+    ghosts: ghosts.chosen,
+    standing: marks.standing(now()).map(({ foot }) => foot),
+    lanes: timeline.around(),
   });
   Object.assign(window, { onbeat: { state, seek, play: () => clock.play(), pause: () => clock.pause() } });
-}
-
-function element(id: string): HTMLElement {
-  return document.getElementById(id) as HTMLElement;
 }
 
 try {
   start();
 } catch (error) {
-  const message = element("message");
+  const message = at("message");
   message.hidden = false;
   message.textContent = error instanceof Error ? error.message : String(error);
 }

@@ -4,20 +4,20 @@ import * as THREE from "three";
 import type { ComparedData, PageData } from "./contract";
 import { Dancer } from "./dancer";
 import { StoredPath } from "./path";
+import { Veil } from "./veil";
 
 const PLACES = ["beside", "over", "hidden"] as const;
 const APART = 0.85; // of the dancer's height
 const GHOST = 0.42; // opacity
 
 export type Place = (typeof PLACES)[number];
-type Part = THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
 
 export class Master {
   place: Place = "beside";
   readonly dancer: Dancer;
   readonly shift = new THREE.Vector3(); // [m] from the dancer
   private readonly aside: THREE.Vector3;
-  private readonly parts: Part[] = [];
+  private readonly veil: Veil;
   private readonly size: number; // of a ghost
   private readonly began: THREE.Vector3; // [m] about which it has that size
 
@@ -26,13 +26,10 @@ export class Master {
     // To the left of who looks at the dancer's front.
     const apart = compared.apart || APART * height;
     this.aside = new THREE.Vector3(Math.cos(page.facing), Math.sin(page.facing), 0).multiplyScalar(apart);
-    this.dancer.group.traverse((part) => {
-      if (part instanceof THREE.Mesh && part.visible) this.parts.push(part as Part);
-    });
+    this.veil = new Veil(this.dancer);
     // What is compared joint by joint has its own size; another body shows its pose best as large as the dancer.
     this.size = compared.heat ? 1 : height / this.dancer.height;
     this.began = this.dancer.centre.clone().setZ(page.floor);
-    this.addDepth();
     this.put("beside");
   }
 
@@ -59,22 +56,6 @@ export class Master {
     this.dancer.group.scale.setScalar(size);
     this.dancer.group.position.copy(this.began).multiplyScalar(1 - size).add(this.shift);
     this.dancer.group.visible = place !== "hidden";
-    for (const part of this.parts) {
-      Object.assign(part.material, { transparent: over, opacity: over ? GHOST : 1, needsUpdate: true });
-      part.castShadow = !over;
-      for (const depth of part.children) depth.visible = over;
-    }
-  }
-
-  /** A ghost's parts must not be seen through each other: all of them go to the depth buffer before they are drawn. */
-  private addDepth(): void {
-    const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true });
-    for (const part of this.parts) {
-      const first = new THREE.Mesh(part.geometry, depth);
-      first.renderOrder = 2; // after the ground
-      first.frustumCulled = part.frustumCulled;
-      part.renderOrder = 3;
-      part.add(first);
-    }
+    this.veil.put(over ? GHOST : 1);
   }
 }

@@ -7,6 +7,7 @@ import type { PageData } from "./contract";
 import type { Dancer } from "./dancer";
 import { Ground } from "./ground";
 import type { Master } from "./master";
+import { Presets, type Reach, type ViewName } from "./presets";
 
 const FOLLOW = 1.6; // [1/s] how fast the camera goes after the dancer
 const FIELD_OF_VIEW = 30; // [degrees]
@@ -22,6 +23,12 @@ export interface Company {
   captions: Caption[];
 }
 
+/** What else is drawn, and has to know the time. */
+export interface Extra {
+  group: THREE.Object3D;
+  pose(time: number): void;
+}
+
 export class Stage {
   follow = true;
   readonly master?: Master;
@@ -33,7 +40,11 @@ export class Stage {
   private readonly sun = new THREE.DirectionalLight("#fff4e6", 2.1);
   private readonly target = new THREE.Vector3();
   private readonly captions: Caption[];
+  private readonly extras: Extra[] = [];
+  private readonly views: Presets;
   private drawn = -1; // [s] the time last drawn
+  private tall = 1; // [m]
+  private jumped = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -56,23 +67,31 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.enablePan = false;
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
+    this.views = new Presets(this.camera, this.controls, page.facing);
     this.fit();
     this.placeCamera();
-    new ResizeObserver(() => this.fit()).observe(canvas);
+    new ResizeObserver(() => {
+      this.fit();
+      this.renderer.render(this.scene, this.camera); // at once, else there is nothing to see until the next frame
+    }).observe(canvas);
   }
 
   draw(time: number, seconds: number, sinceBeat: number, strength: number): void {
     this.dancer.pose(time);
     this.master?.pose(time);
+    if (this.jumped) this.catchUp();
+    this.jumped = false;
+    for (const extra of this.extras) extra.pose(time);
     this.caption();
     const centre = this.middle();
-    if (this.follow) this.goAfter(centre, 1 - Math.exp(-FOLLOW * seconds));
+    if (this.follow || this.views.fixed) this.goAfter(this.views.fixed ?? centre, 1 - Math.exp(-this.pace() * seconds));
     this.sun.target.position.set(centre.x, centre.y, this.page.floor + 0.8);
     this.sun.position.copy(this.sun.target.position).add(new THREE.Vector3(...this.lightFrom()));
     const ends = [...this.dancer.ends, ...(this.master?.ends() ?? [])];
     this.ground.update(this.dancer.centre, ends, sinceBeat, strength);
+    const moved = this.views.update(seconds);
     const turned = this.controls.update(seconds || undefined);
-    if (!turned && time === this.drawn) return; // a paused page must not heat a phone
+    if (!turned && !moved && time === this.drawn) return; // a paused page must not heat a phone
     this.drawn = time;
     this.renderer.render(this.scene, this.camera);
   }
@@ -88,7 +107,62 @@ export class Stage {
 
   /** Bring the camera to the dancer at once, as after a seek. */
   catchUp(): void {
-    if (this.follow) this.goAfter(this.middle(), 1);
+    if (this.follow && !this.views.fixed) this.goAfter(this.middle(), 1);
+  }
+
+  /** The dancer will be elsewhere when next drawn, and the camera with it. */
+  jump(): void {
+    this.jumped = true;
+  }
+
+  /** Second of the dance that was last drawn. */
+  get posed(): number {
+    return this.drawn;
+  }
+
+  /** Where the camera is [m]. */
+  get eye(): number[] {
+    return this.camera.position.toArray();
+  }
+
+  /** Something else to draw from now on. */
+  add(extra: Extra): void {
+    this.extras.push(extra);
+    this.scene.add(extra.group);
+  }
+
+  /** Where the dancer is over the whole dance: what is seen from the front, the side and above. */
+  survey(reach: Reach): void {
+    this.views.reach = reach;
+  }
+
+  /** Where the camera looks from; undefined where somebody moved it. */
+  get view(): ViewName | undefined {
+    return this.views.view;
+  }
+
+  /** Looks from another place, gently or at once. */
+  look(view: ViewName, atOnce = false): void {
+    this.views.choose(view, this.away());
+    this.follow = this.views.goes;
+    if (!atOnce) return;
+    this.goAfter(this.views.fixed ?? this.middle(), 1);
+    this.views.arrive();
+  }
+
+  /** The camera goes with the dancer, or is left where it is. */
+  toggleFollow(): void {
+    if (this.views.goes) this.follow = !this.follow;
+    else this.look("follow");
+  }
+
+  /** To be drawn again though no time has passed. */
+  renew(): void {
+    this.drawn = -1;
+  }
+
+  private pace(): number {
+    return this.views.fixed ? 3 * FOLLOW : FOLLOW;
   }
 
   /** Another dancer comes in place of the one that was there. */
@@ -104,6 +178,7 @@ export class Stage {
   /** A dark or a light room. */
   set dark(dark: boolean) {
     this.ground.dark = dark;
+    for (const caption of this.captions) caption.dark = dark;
     this.drawn = -1;
   }
 
@@ -154,14 +229,24 @@ export class Stage {
     return [-Math.sin(yaw) * 4, Math.cos(yaw) * 4, height];
   }
 
+  /** How tall the taller one stood when the stage was set. */
+  private tallest(): number {
+    return Math.max(this.dancer.height, this.master?.dancer.height ?? 0);
+  }
+
+  /** Metres from which who is on the stage fills the picture. */
+  private away(height = this.tall): number {
+    const wide = this.master ? 0.55 + this.master.shift.length() / height : 0.74; // of the height
+    const narrow = Math.min(this.camera.aspect / wide, 1);
+    return (0.78 * (this.page.room ?? 1) * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+  }
+
   private placeCamera(): void {
-    const height = Math.max(this.dancer.height, this.master?.dancer.height ?? 0);
+    const height = (this.tall = this.tallest());
     const yaw = this.page.facing + 0.42;
     const middle = this.middle();
     this.target.set(middle.x, middle.y, this.page.floor + 0.5 * height);
-    const wide = this.master ? 0.55 + this.master.shift.length() / height : 0.74; // of the height
-    const narrow = Math.min(this.camera.aspect / wide, 1);
-    const away = (0.78 * (this.page.room ?? 1) * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+    const away = this.away();
     const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
     this.camera.position.copy(this.target).addScaledVector(out, away);
     this.controls.target.copy(this.target);

@@ -21,6 +21,7 @@ from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Float32
 from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
+from onbeat.cli.fetching import moves_path, song_path
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.cli.wish_flags import NO_WISH_FLAGS, WishFlags
 from onbeat.dance.make import LONGEST, Dance, make_dance
@@ -64,11 +65,11 @@ def dance_command(
     Parameters
     ----------
     song
-        Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``. Without one the embedded song is
-        played.
+        Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``; or ``song:NAME`` of one that
+        ``onbeat songs fetch`` fetched. Without one the embedded song is played.
     moves
-        Motion files of any kind, a folder of them, or a library made by ``onbeat moves build``. Without it the embedded
-        troupe dances.
+        Motion files of any kind, a folder of them, a library made by ``onbeat moves build``, or the name of a set that
+        ``onbeat moves fetch`` fetched. Without it the embedded troupe dances.
     output
         Folder for dance.bvh, dance.glb, dance.html, dance.json and song.json.
     seconds
@@ -103,11 +104,13 @@ def dance_command(
     wishes = wished.wishes()
     if video:
         _require_video()
-    if moves is not None and not moves.exists():
+    song_file = None if song is None else song_path(song)
+    clips = None if moves is None else moves_path(moves)
+    if clips is not None and not clips.exists():
         raise LibraryError(f"no file or folder {moves}; give a folder of BVH, ASF/AMC or npz motion to --moves")
     with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
-        heard, sound = _hear(song, start, seconds, seed, flags.corrections(), stages)
-        library = _library(moves, mirror, stages)
+        heard, sound = _hear(song_file, start, seconds, seed, flags.corrections(), stages)
+        library = _library(clips, mirror, stages)
         dance = make_dance(
             heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, wishes=wishes,
             step=stages,

@@ -31,6 +31,7 @@ from onbeat.viewer.contract import (
 )
 from onbeat.viewer.figure import DRESSED, Colour, Figure, ground_height
 from onbeat.viewer.shape import Capsule, capsules
+from onbeat.viewer.steps import steps_of
 
 MAX_FPS = 60.0
 """Frames per second above which the page would show no more."""
@@ -98,6 +99,7 @@ def page_data(
         music_intensity=_music_intensity(motion, song),
         motion_intensity=_motion_intensity(motion, body),
         metrics=_metrics(dance.metrics),
+        steps=steps_of(motion, body),
     )
 
 

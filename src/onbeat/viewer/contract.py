@@ -14,7 +14,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Positions
 
-VERSION = 4
+VERSION = 5
 STEPS = 65535
 """Largest quantised coordinate."""
 
@@ -127,11 +127,58 @@ class ComparedData(msgspec.Struct, frozen=True):
     apart: float = 0.0
 
 
+class StepData(msgspec.Struct, frozen=True):
+    """A foot, ``left`` or ``right``, that stands: when, where its middle is, the yaw it points to, and how long it is.
+
+    A foot that stands on its toe or heel alone is as long as what stands of it.
+    """
+
+    foot: str
+    from_s: float
+    to_s: float
+    x: float
+    y: float
+    yaw: float
+    length: float
+
+
+class ClipData(msgspec.Struct, frozen=True):
+    """A clip of the library: its name and its seconds."""
+
+    name: str
+    seconds: float
+
+
+class JoinData(msgspec.Struct, frozen=True):
+    """A join of the motion graph: out of one of its clips, by number, at a second of it, into another."""
+
+    clip: int
+    from_s: float
+    next_clip: int
+    to_s: float
+
+
+class GraphData(msgspec.Struct, frozen=True):
+    """The motion graph: clips danced and a sample of others, joins between them, and how many of both there are."""
+
+    clips: list[ClipData]
+    joins: list[JoinData]
+    clip_count: int
+    join_count: int
+
+
+class WarpData(msgspec.Struct, frozen=True):
+    """The time warp: at ``times`` of the dance is shown what was at ``before`` without it; linear between them."""
+
+    times: list[float]
+    before: list[float]
+
+
 class PageData(msgspec.Struct, frozen=True):
     """Everything the page shows.
 
     ``spine`` are the joints from the waist up to the neck, or the root alone where the body has no roles; the camera
-    follows the first.
+    follows the first. ``steps`` are where feet stand, in the order in which they begin to.
     """
 
     version: int
@@ -160,11 +207,14 @@ class PageData(msgspec.Struct, frozen=True):
     motion_intensity: CurveData
     metrics: list[MetricData]
     compared: ComparedData | None = None
+    steps: list[StepData] = []
+    graph: GraphData | None = None
+    warp: WarpData | None = None
 
 
 STRUCTS = (
     CapsuleData, PathData, CurveData, AudioData, MoveData, KeyposeData, EnergyData, MetricData, BodyData, HeatData,
-    ComparedData, PageData,
+    ComparedData, StepData, ClipData, JoinData, GraphData, WarpData, PageData,
 )  # fmt: skip
 """All classes of the contract, parts before the whole."""
 

@@ -50,15 +50,34 @@ def write_judge_page(path: str | os.PathLike[str], found: LowDimensional, trials
     MetricError
         If there is no trial, or one of a motion that is not there.
     """
+    write_atomically(path, judge_page(found, trials))
+
+
+def judge_page(found: LowDimensional, trials: Sequence[Trial], plans: Sequence[Sequence[Trial]] = ()) -> bytes:
+    """The page's bytes.
+
+    Parameters
+    ----------
+    found : the motions, in both spaces.
+    trials : what is asked, by the names of the people.
+    plans : for a study with many people: what each is asked, in turn, instead of the same ``trials``. Such a page
+        begins with a word of welcome, gathers the answers of all, and hands them to the server it comes from.
+
+    Raises
+    ------
+    MetricError
+        If there is no trial, or one of a motion that is not there.
+    """
     people = [one.person for one in found.taught]
-    if not trials or any(trial.motion not in people for trial in trials):
-        raise MetricError(f"trials of {sorted({trial.motion for trial in trials})} cannot be asked: there are {people}")
-    shown = [people.index(name) for name in dict.fromkeys(trial.motion for trial in trials)]
-    content = _data(found, shown, trials)
-    key = hashlib.sha256(msgspec.json.encode(content)).hexdigest()[:16]  # under which a browser keeps the answers
+    every = [*trials, *(trial for plan in plans for trial in plan)]
+    if not every or any(trial.motion not in people for trial in every):
+        raise MetricError(f"trials of {sorted({trial.motion for trial in every})} cannot be asked: there are {people}")
+    shown = [people.index(name) for name in dict.fromkeys(trial.motion for trial in every)]
+    content = _data(found, shown, trials, plans)
+    # The key, under which a browser keeps the answers, tells one study's from another's.
+    key = hashlib.sha256(msgspec.json.encode(content)).hexdigest()[:16]
     data = msgspec.json.encode({"key": key, **content}).replace(b"<", b"\\u003c")
-    page = _shell().replace(_SLOT, b'<script type="application/json" id="data">' + data + b"</script>", 1)
-    write_atomically(path, page)
+    return _shell().replace(_SLOT, b'<script type="application/json" id="data">' + data + b"</script>", 1)
 
 
 def _shell() -> bytes:
@@ -69,8 +88,12 @@ def _shell() -> bytes:
         raise OnbeatError(f"{file} is missing; install onbeat again") from None
 
 
-def _data(found: LowDimensional, shown: Sequence[int], trials: Sequence[Trial]) -> dict[str, Any]:
-    first, repeats = found.vectors[shown[0]], 1 + max(trial.stretch for trial in trials)
+def _data(
+    found: LowDimensional, shown: Sequence[int], trials: Sequence[Trial], plans: Sequence[Sequence[Trial]]
+) -> dict[str, Any]:
+    every = [*trials, *(trial for plan in plans for trial in plan)]
+    first, repeats = found.vectors[shown[0]], 1 + max(trial.stretch for trial in every)
+    told = {"plans": [[trial._asdict() for trial in plan] for plan in plans]} if plans else {}
     return {
         "version": VERSION,
         "dims": found.dims,
@@ -80,6 +103,7 @@ def _data(found: LowDimensional, shown: Sequence[int], trials: Sequence[Trial]) 
         "bones": _bones(first.points, bone_ends(found.motions[shown[0]].skeleton, first.joints)),
         "motions": {found.taught[which].person: _stretches(found, which, repeats) for which in shown},
         "trials": [trial._asdict() for trial in trials],
+        **told,
     }
 
 

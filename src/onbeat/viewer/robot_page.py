@@ -104,6 +104,25 @@ def robot_page(
     OnbeatError
         If times are not finite, the samples are no sound, or the robot's motion is not of the model.
     """
+    return filled(
+        robot_page_data(dancer, robot, song, audio, beats, keyposes, title, notes, model=model, fell_at=fell_at)
+    )
+
+
+def robot_page_data(
+    dancer: Motion,
+    robot: Motion,
+    song: Song | None = None,
+    audio: tuple[Float32, int] | None = None,
+    beats: Times = NONE,
+    keyposes: Times = NONE,
+    title: str = "",
+    notes: Mapping[str, Any] | None = None,
+    *,
+    model: Robot | None = None,
+    fell_at: float | None = None,
+) -> PageData:
+    """What the page shows; arguments and errors as :func:`robot_page`."""
     _check(beats, "beat")
     _check(keyposes, "keypose")
     _check(NONE if fell_at is None else np.array([fell_at]), "fall")
@@ -116,7 +135,7 @@ def robot_page(
     page = _dressed(page, drawn, shape)
     caption = name if ending is None else f"{name}, {ending.words}"
     page = msgspec.structs.replace(page, compared=_beside(page, person, machine, caption))
-    return filled(_timed(page, machine, song, keyposes, ending))
+    return _timed(page, machine, song, keyposes, ending)
 
 
 def together(dancer: Motion, robot: Motion) -> tuple[Motion, Motion]:

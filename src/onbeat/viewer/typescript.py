@@ -9,7 +9,7 @@ import inspect
 import sys
 import types
 from collections.abc import Sequence
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import msgspec
 
@@ -32,7 +32,7 @@ def typescript_type(hint: Any) -> str:
         return f"{typescript_type(get_args(hint)[0])}[]"
     if get_origin(hint) is Literal:
         return " | ".join(f'"{word}"' for word in get_args(hint))
-    if isinstance(hint, types.UnionType):
+    if get_origin(hint) in (types.UnionType, Union):  # of a Literal and None, it is the older of the two
         return " | ".join(typescript_type(part) for part in get_args(hint))
     return hint.__name__
 
