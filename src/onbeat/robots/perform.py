@@ -70,6 +70,7 @@ def stage(
     fps: float | None = None,
     until: float = np.inf,
     progress: Stage | None = None,
+    method: str = "qp",
 ) -> Staged:
     """A dance on a robot, in the music's time.
 
@@ -83,6 +84,7 @@ def stage(
     fps : frames a second; as the dance without it.
     until : second of the music at which it ends at the latest.
     progress : is told the stage and its share that is done.
+    method : of ``onbeat.retime.methods``, by which the hinges are brought inside their limits.
 
     Raises
     ------
@@ -94,7 +96,7 @@ def stage(
     tell = progress or (lambda stage, share: None)
     own = dance if is_of(dance, robot) else retarget(dance, robot, keyposes, lambda share: tell("retarget", share))
     source, limits = Hinges(own, robot.body), limits_of(robot)
-    retimed = retime(source, warp, limits, beats, keyposes, "qp", fps, until, lambda share: tell("retime", share))
+    retimed = retime(source, warp, limits, beats, keyposes, method, fps, until, lambda share: tell("retime", share))
     assert isinstance(retimed.dance, Motion)
     tell("legs", 0.0)
     danced: Danced = (planted if feet == "planted" else stepping)(calmed(retimed.dance, robot), robot)

@@ -14,7 +14,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Times
 from onbeat.retime.bspline import Spline
-from onbeat.retime.hierarchy import SPACING
+from onbeat.retime.hierarchy import LAYERS, SPACING
 from onbeat.retime.retime import Retimed
 from onbeat.viewer.figures import new_figure, save_figure
 from onbeat.viewer.retime_curves import Look, joint_told, look_at, one_dance, speed_told
@@ -168,7 +168,7 @@ def _weights(axes: Any, result: Retimed, weights: Array) -> None:
     extent = (knots.start - knots.step / 2, knots.end + knots.step / 2, weights.shape[1] - 0.5, -0.5)
     drawn = axes.imshow(weights.T, cmap=scale, vmin=0, vmax=1, aspect="auto", extent=extent, interpolation="nearest")
     shown = range(0, weights.shape[1], 1 if weights.shape[1] <= MANY else 2)
-    axes.set_yticks(shown, [_spacing(layer) for layer in shown])
+    axes.set_yticks(shown, [_spacing(layer, weights.shape[1]) for layer in shown])
     axes.tick_params(axis="y", length=0)
     bar = axes.figure.colorbar(drawn, cax=axes.inset_axes((1.008, 0.0, 0.01, 1.0)))
     bar.set_ticks([0, 1], labels=["0", "1"], fontsize=8)
@@ -176,9 +176,9 @@ def _weights(axes: Any, result: Retimed, weights: Array) -> None:
     _named(axes, "knots [beats]", f"{result.method}: weights of the layers", grid=False)
 
 
-def _spacing(layer: int) -> str:
-    """Beats between a layer's knots."""
-    beats = SPACING / 2**layer
+def _spacing(layer: int, layers: int) -> str:
+    """Beats between a layer's knots: more layers than five go on to coarser ones, the finest is the same."""
+    beats = SPACING * 2.0 ** (layers - LAYERS - layer)
     return _FRACTIONS.get(beats) or (f"{beats:g}" if beats >= 1 else f"1/{1 / beats:g}")
 
 

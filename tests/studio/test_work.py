@@ -1,0 +1,179 @@
+"""The jobs' work itself, from a song to exports: what the page gets agrees with what lies in the folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import pytest
+import soundfile
+
+from onbeat.dance.document import DanceDocument
+from onbeat.errors import OnbeatError
+from onbeat.formats.bvh_write import write_bvh
+from onbeat.motion import Motion
+from onbeat.moves.library import MoveLibrary
+from onbeat.studio.clip_list import ClipList
+from onbeat.studio.song_view import song_view
+from onbeat.studio.tasks import (
+    BuildTask,
+    DanceTask,
+    Done,
+    ExportTask,
+    KeptDance,
+    ListenTask,
+    LookTask,
+    RetimeTask,
+    SoundSource,
+)
+from onbeat.studio.telling import Tell
+from onbeat.studio.wire import BeatsData, MotionView, SongItem
+from onbeat.studio.work_dance import danced_song
+from onbeat.studio.worker import work_of
+from onbeat.viewer.contract import VERSION, PageData, unpack_curve
+from sounds import RATE, click
+
+SECONDS = 9.0
+
+
+class Told(list[tuple[float, str]]):
+    """What a job says of its progress."""
+
+    def tell(self) -> Tell:
+        return Tell(lambda share, what: self.append((share, what)))
+
+
+def done(task: Any, told: Told | None = None) -> Done:
+    Path(task.out).mkdir(exist_ok=True)
+    return work_of(task)(task, (Told() if told is None else told).tell())
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory: pytest.TempPathFactory) -> SoundSource:
+    """A song of clicks at 120 BPM with a chord that changes each bar, heard."""
+    folder = tmp_path_factory.mktemp("song")
+    sound = np.zeros(round(SECONDS * RATE))
+    for beat in np.arange(0.25, SECONDS - 0.1, 0.5):
+        at = round(beat * RATE)
+        sound[at : at + len(click())] += click()
+    times = np.arange(len(sound)) / RATE
+    sound += 0.1 * np.sin(2 * np.pi * np.where(np.floor((times - 0.25) / 2) % 2 == 0, 220.0, 293.7) * times)
+    soundfile.write(folder / "given.flac", 0.5 * sound, RATE)
+    made = SoundSource("clicks", str(folder / "given.flac"), str(folder / "out" / "song.json"))
+    told = Told()
+    found = done(ListenTask(str(folder / "out"), made), told)
+    assert found.seconds == pytest.approx(SECONDS, abs=0.01)
+    assert found.tempo == pytest.approx(120, abs=2)
+    assert [share for share, _ in told] == sorted(share for share, _ in told)
+    return made
+
+
+def order(out: Path, source: SoundSource, **changed: Any) -> DanceTask:
+    usual = {"library": None, "marks": {}, "start": 0.5, "seconds": 7.0, "method": "optimal", "seed": 0}
+    return DanceTask(out=str(out), name="clicked", song=source, **({"intensity_weight": 1.0} | usual | changed))
+
+
+@pytest.fixture(scope="module")
+def dance(tmp_path_factory: pytest.TempPathFactory, source: SoundSource, troupe: MoveLibrary) -> Path:
+    folder = tmp_path_factory.mktemp("dance")
+    found = done(order(folder, source))
+    assert found.seconds == pytest.approx(7.0, abs=0.02)
+    assert found.f50 is not None
+    return folder
+
+
+def scene(folder: Path) -> PageData:
+    return msgspec.json.decode((folder / "scene.json").read_bytes(), type=PageData)
+
+
+def test_the_sound_that_is_played_is_the_one_that_was_given(source: SoundSource):
+    folder = Path(source.heard).parent
+    played, rate = soundfile.read(folder / "sound.wav")
+    given, _ = soundfile.read(str(source.file))
+    assert rate == RATE
+    np.testing.assert_allclose(played, given, atol=1e-4)
+    shown = song_view(folder, SongItem("song-1", "clicks", "ready", duration=SECONDS))
+    beats = np.array(shown.beats)
+    assert np.abs((beats - 0.25 + 0.25) % 0.5 - 0.25).max() < 0.03
+    wave = unpack_curve(shown.waveform)
+    assert len(wave) == pytest.approx(SECONDS * shown.waveform.rate, abs=1)
+    assert wave.max() == 1.0
+
+
+def test_a_dance_has_the_page_that_onbeat_dance_writes(dance: Path):
+    page = scene(dance)
+    document = DanceDocument.from_json((dance / "dance.json").read_bytes())
+    assert (page.version, page.audio) == (VERSION, None)
+    assert page.duration == pytest.approx(7.0, abs=0.02)
+    assert [move.clip for move in page.moves] == [move.clip for move in document.moves]
+    assert page.graph is not None
+    assert (dance / "root.npz").read_bytes() == (dance / "dance.npz").read_bytes()
+
+
+def test_marks_and_kept_stretches_are_heeded(tmp_path: Path, dance: Path, source: SoundSource, troupe: MoveLibrary):
+    before = DanceDocument.from_json((dance / "dance.json").read_bytes())
+    kept = [KeptDance(str(dance), 0.0, 3.0)]
+    shown = {m.clip.removesuffix("~mirror") for m in before.moves if m.at_s < 3.0}
+    others = [clip.name for clip in troupe.clips if not clip.mirrored and clip.name not in shown]
+    marks: Any = dict.fromkeys(others[:-2], "forbidden")
+    done(order(tmp_path / "again", source, keep=kept, marks=marks | {"a clip that is gone": "forbidden"}))
+    after = DanceDocument.from_json((tmp_path / "again" / "dance.json").read_bytes())
+    assert not {m.clip.removesuffix("~mirror") for m in after.moves} & set(others[:-2])
+    was, now = ([(m.clip, round(m.from_s, 1)) for m in d.moves if m.at_s < 2.5] for d in (before, after))
+    assert was == now
+
+
+def test_beats_that_the_user_put_right_are_danced_to(source: SoundSource):
+    beats = np.arange(0.4, 8.5, 0.6).round(4).tolist()
+    right = msgspec.structs.replace(source, beats=BeatsData(beats, beats[1::3]))
+    song = danced_song(order(Path(), right, start=1.0, seconds=6.0), Told().tell())
+    np.testing.assert_allclose(song.beats + 1, [beat for beat in beats if 1 <= beat < 7], atol=1e-3)
+    np.testing.assert_allclose(song.downbeats + 1, [beat for beat in beats[1::3] if 1 <= beat < 7], atol=1e-3)
+    assert (song.meter, song.duration) == (3, 6.0)
+    assert song.chord_change.max() > 0
+
+
+def test_a_faster_dance_is_made_of_the_dance_at_the_songs_own_speed(tmp_path: Path, dance: Path):
+    found = done(RetimeTask(str(tmp_path / "fast"), "faster", str(dance), 1.25))
+    assert found.seconds == pytest.approx(7.0 / 1.25, abs=0.05)
+    page = scene(tmp_path / "fast")
+    slow = scene(dance)
+    np.testing.assert_allclose(np.array(page.beats) * 1.25, slow.beats[: len(page.beats)], atol=1e-3)
+    assert page.tempo == pytest.approx(1.25 * slow.tempo, rel=1e-3)
+    assert (tmp_path / "fast" / "root.json").read_bytes() == (dance / "root.json").read_bytes()
+
+
+def test_exports_are_whole_files(tmp_path: Path, dance: Path, source: SoundSource):
+    sound = str(Path(source.heard).with_name("sound.wav"))
+    for format, file, begin in (("glb", "dance.glb", b"glTF"), ("html", "dance.html", b"<!doctype html>")):
+        done(ExportTask(str(tmp_path), file, format, str(dance), sound, 0.5, 1.0))
+        assert (tmp_path / file).read_bytes()[: len(begin)].lower() == begin.lower()
+    assert b"data:audio/mpeg" in (tmp_path / "dance.html").read_bytes()
+
+
+def test_motions_are_looked_at_and_built_into_a_library(tmp_path: Path, swinger: Motion):
+    write_bvh(swinger, tmp_path / "x1.bvh")
+    (tmp_path / "x2.bvh").write_text("nothing")
+    files = [(str(tmp_path / "x1.bvh"), "my walk.bvh"), (str(tmp_path / "x2.bvh"), "empty.bvh")]
+    found = done(LookTask(str(tmp_path / "look"), [(f"motion-{k}", *file) for k, file in enumerate(files)]))
+    assert [one.error is None for one in found.seen] == [True, False]
+    assert "empty.bvh" in (found.seen[1].error or "")
+    assert str(tmp_path) not in (found.seen[1].error or "")
+    view = msgspec.json.decode((tmp_path / "look" / "motion-0.json").read_bytes(), type=MotionView)
+    assert (view.name, view.seconds, view.scene.version) == ("my walk.bvh", pytest.approx(4.0, abs=0.02), VERSION)
+    assert view.body.startswith("1.")
+    with pytest.raises(OnbeatError, match=r"^empty\.bvh"):
+        done(LookTask(str(tmp_path / "look"), [("motion-1", *files[1])]))
+    built = done(BuildTask(str(tmp_path / "list"), str(tmp_path / "library"), files))
+    assert built.clips == 1
+    assert built.note == "1 of 2 motions are left out"
+    assert ClipList.read(tmp_path / "list").problems[0].startswith("empty.bvh")
+
+
+def test_a_picture_is_no_song_and_is_told_so_by_its_name(tmp_path: Path):
+    (tmp_path / "original.mp3").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    with pytest.raises(OnbeatError, match=r"^holiday\.mp3") as refused:
+        done(ListenTask(str(tmp_path / "out"), SoundSource("holiday.mp3", str(tmp_path / "original.mp3"))))
+    assert str(tmp_path) not in str(refused.value)

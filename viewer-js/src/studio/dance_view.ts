@@ -1,0 +1,245 @@
+// A dance: it plays with its song, over its timeline, alone or beside another on the same clock.
+
+import { readCurve } from "../data";
+import { ask, words } from "./api";
+import { Clicks } from "./clicks";
+import type { DanceItem, DanceOrder, DanceView as Danced, SongView } from "./contract";
+import { DanceTools } from "./dance_tools";
+import { h, say } from "./elements";
+import { LockList } from "./lock_list";
+import { Locks } from "./locks";
+import { notice } from "./notices";
+import { palette } from "./palette";
+import { pending } from "./pending";
+import { Score } from "./score";
+import { Transport } from "./transport";
+import { go, type Studio, type View } from "./view";
+import { exactly, nextName } from "./words";
+
+/** What is there once a dance is ready. */
+interface Shown {
+  danced: Danced;
+  score: Score;
+  transport: Transport;
+  tools: DanceTools;
+  locks: Locks;
+  clicks: Clicks;
+}
+
+export class DanceView implements View {
+  readonly root = h("article", { class: "view dance" });
+  title = "Dance";
+  private shown?: Shown;
+  private other?: Danced;
+  private asked = false;
+  private opening?: number; // [s] where a locked stretch begins that has no end yet
+  private readonly name = h("h2", {});
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly id: string,
+    private readonly besideAtFirst = "",
+  ) {
+    this.update();
+  }
+
+  update(): void {
+    const item = this.studio.store.dance(this.id);
+    if (!item)
+      return void this.root.replaceChildren(h("p", { class: "empty" }, "This dance is not in the project any more."));
+    this.title = item.name;
+    if (item.state !== "ready")
+      return pending(
+        this.root,
+        this.studio.store,
+        item,
+        "This dance",
+        item.kind === "danced" ? () => this.order(item.order) : undefined,
+      );
+    say(this.name, item.name);
+    this.shown?.tools.update(item);
+    if (!this.asked) void this.open();
+  }
+
+  frame(time: number, seconds: number): void {
+    const { shown, other, studio } = this;
+    if (!shown) return;
+    shown.transport.update(time);
+    shown.clicks.update(time);
+    const { playing } = studio.player;
+    studio.looks[0].draw(time, seconds, playing);
+    if (other) studio.looks[1].draw(this.besideOf(time), seconds, playing);
+    shown.score.track.draw(time, playing);
+  }
+
+  key(event: KeyboardEvent): boolean {
+    const { shown } = this;
+    if (!shown) return false;
+    const now = this.studio.player.now(performance.now());
+    if (event.key === "[") {
+      this.opening = now;
+      notice(`A locked stretch begins at ${exactly(now)}: go on, and press ] where it ends.`);
+    } else if (event.key === "]") {
+      shown.locks.add(this.opening ?? 0, now);
+      this.opening = undefined;
+    } else return shown.transport.key(event);
+    return true;
+  }
+
+  dim(): void {
+    this.shown?.score.track.stale();
+  }
+
+  close(): void {
+    this.shown?.clicks.stop();
+    this.studio.looks[1].clear();
+  }
+
+  state(): Record<string, unknown> {
+    return {
+      dance: this.id,
+      ready: this.shown !== undefined,
+      beside: this.other?.item.id ?? null,
+      clicks: this.shown?.clicks.sounded ?? 0,
+      locks: this.shown?.locks.stretches ?? [],
+      besideTime: this.other ? this.besideOf(this.studio.player.now(performance.now())) : null,
+      names: this.shown?.danced.scene.joints ?? [],
+      floor: this.shown?.danced.scene.floor ?? 0,
+    };
+  }
+
+  private async open(): Promise<void> {
+    this.asked = true;
+    try {
+      this.show(await ask<Danced>("GET", `dances/${this.id}`));
+    } catch (error) {
+      this.asked = false;
+      this.root.replaceChildren(h("p", { class: "problem", role: "alert" }, words(error)));
+    }
+  }
+
+  private show(danced: Danced): void {
+    const { player, looks, store } = this.studio;
+    const { item, scene } = danced;
+    player.load({
+      url: `/api/songs/${item.song}/sound`,
+      start: item.start,
+      speed: item.speed,
+      duration: scene.duration,
+    });
+    const locks = new Locks(scene.duration, () => {
+      list.show();
+      score.track.stale();
+    });
+    const list = new LockList(locks, () => void this.again(item));
+    const score = new Score(scene, player, item.kind === "danced" ? locks : undefined, () =>
+      palette(this.studio.dark()),
+    );
+    const starts = new Set(scene.downbeats);
+    const clicks = new Clicks(player, () => ({ times: scene.beats, down: (i) => starts.has(scene.beats[i]) }));
+    const transport = new Transport(player, { clicks, looks });
+    const tools = new DanceTools(store, item, danced);
+    this.shown = { danced, score, transport, tools, locks, clicks };
+    tools.beside.addEventListener("change", () => void this.compare(tools.beside.value));
+    void this.hear(item, score);
+    this.lay(item, list.root);
+    looks[0].show(scene, "", `${item.name}, danced`);
+    if (!this.besideAtFirst) return;
+    tools.beside.value = this.besideAtFirst;
+    void this.compare(this.besideAtFirst);
+  }
+
+  private async hear(item: DanceItem, score: Score): Promise<void> {
+    try {
+      const { waveform } = await ask<SongView>("GET", `songs/${item.song}`);
+      score.sound(readCurve(waveform), item.start, item.speed);
+    } catch {
+      // the song was taken away: the dance shows without it
+    }
+  }
+
+  private lay(item: DanceItem, locks: HTMLElement): void {
+    const { danced, score, transport, tools } = this.shown as Shown;
+    const { order } = item;
+    const facts = [
+      exactly(danced.scene.duration),
+      item.robot ?? order.method,
+      `λ ${order.intensity_weight}`,
+      `seed ${order.seed}`,
+    ];
+    if (danced.scene.tempo > 0) facts.splice(1, 0, `${Math.round(danced.scene.tempo)} beats a minute`);
+    if (item.speed !== 1) facts.push(`×${item.speed.toFixed(2)}`);
+    if (item.f50 !== null) facts.push(`F50 ${item.f50.toFixed(2)}`);
+    this.root.replaceChildren(
+      h(
+        "div",
+        { class: "middle" },
+        h(
+          "header",
+          { class: "head" },
+          h(
+            "div",
+            {},
+            this.name,
+            h("p", { class: "facts" }, facts.join(" · ")),
+            item.note && h("p", { class: "note" }, item.note),
+          ),
+        ),
+        h("div", { class: "looks" }, ...this.studio.looks.map(({ root }) => root)),
+        transport.root,
+        score.root,
+        item.kind === "danced" && locks,
+      ),
+      tools.root,
+    );
+    this.studio.looks[1].root.hidden = true;
+  }
+
+  /** Where the second dance is while the first is at `time`: both are heard at the same second of the song. */
+  private besideOf(time: number): number {
+    const [one, other] = [this.shown?.danced.item, this.other?.item];
+    if (!one || !other || one.song !== other.song) return time;
+    return (one.start + time * one.speed - other.start) / other.speed;
+  }
+
+  private besideBack(time: number): number {
+    const [one, other] = [this.shown?.danced.item, this.other?.item];
+    if (!one || !other || one.song !== other.song) return time;
+    return (other.start + time * other.speed - one.start) / one.speed;
+  }
+
+  private async compare(id: string): Promise<void> {
+    const { looks } = this.studio;
+    const { danced, score } = this.shown as Shown;
+    try {
+      this.other = id ? await ask<Danced>("GET", `dances/${id}`) : undefined;
+    } catch (error) {
+      return notice(words(error), true);
+    }
+    const { other } = this;
+    this.root.classList.toggle("compared", other !== undefined);
+    looks[1].root.hidden = !other;
+    looks[0].show(danced.scene, other ? danced.item.name : "", `${danced.item.name}, danced`);
+    score.compare(other && { scene: other.scene, at: (time) => this.besideBack(time) });
+    if (!other) return looks[1].clear();
+    looks[1].show(other.scene, other.item.name, `${other.item.name}, danced`);
+    if (other.item.song !== danced.item.song)
+      notice("The two dances have different songs: both begin together, and the first one's song is heard.");
+  }
+
+  private async again(item: DanceItem): Promise<void> {
+    const { locks } = this.shown as Shown;
+    const keep = locks.stretches.map(({ from, to }) => ({ dance: item.id, from_s: from, to_s: to }));
+    await this.order({ ...item.order, keep, seed: item.order.seed + 1, name: nextName(item.name) }, item.id);
+  }
+
+  private async order(order: DanceOrder, beside = ""): Promise<void> {
+    try {
+      const made = await ask<DanceItem>("POST", "dances", order);
+      await this.studio.store.refresh();
+      go("dance", beside ? `${made.id}/${beside}` : made.id);
+    } catch (error) {
+      notice(words(error), true);
+    }
+  }
+}

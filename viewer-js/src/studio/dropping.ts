@@ -1,0 +1,101 @@
+// Files that are dropped anywhere on the page, or chosen: songs are listened to, motions looked at.
+
+import { send, words } from "./api";
+import type { MotionItem, SongItem } from "./contract";
+import { at } from "./elements";
+import { notice } from "./notices";
+import type { Store } from "./store";
+import { go } from "./view";
+
+const SOUNDS = /\.(wav|flac|ogg|oga|mp3|m4a|aac|mp4|mov|mkv|webm|aif|aiff|opus)$/i;
+
+/** A file on its way to the server. */
+export interface Sending {
+  key: string;
+  name: string;
+  kind: "song" | "motion";
+  share: number; // 0…1 of it has gone
+}
+
+export class Dropping {
+  sending: Sending[] = [];
+  private depth = 0;
+  private count = 0;
+
+  constructor(
+    private readonly store: Store,
+    private readonly changed: () => void,
+  ) {
+    const files = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
+    addEventListener("dragenter", (event) => files(event) && this.hover(1));
+    addEventListener("dragleave", (event) => files(event) && this.hover(-1));
+    addEventListener("dragover", (event) => files(event) && event.preventDefault());
+    addEventListener("drop", (event) => {
+      if (!files(event)) return;
+      event.preventDefault();
+      this.hover(-this.depth);
+      void this.take(Array.from(event.dataTransfer?.files ?? []));
+    });
+    const chooser = at("files") as HTMLInputElement;
+    chooser.addEventListener("change", () => {
+      const chosen = Array.from(chooser.files ?? []);
+      chooser.value = "";
+      void this.take(chosen);
+    });
+  }
+
+  choose(): void {
+    at("files").click();
+  }
+
+  /** One after the other: the server's line is not made wider by many at once. */
+  async take(files: readonly File[]): Promise<void> {
+    const entries = files.map((file) => ({ file, entry: this.entry(file) }));
+    for (const { file, entry } of entries) if (entry) await this.give(file, entry);
+  }
+
+  private entry(file: File): Sending | undefined {
+    const largest = this.store.project?.largest ?? Infinity;
+    if (file.size > largest) {
+      notice(`${file.name} has ${megabytes(file.size)}; this studio takes files of up to ${megabytes(largest)}.`, true);
+      return undefined;
+    }
+    const kind = SOUNDS.test(file.name) || file.type.startsWith("audio/") ? "song" : "motion";
+    const entry: Sending = { key: `sending${++this.count}`, name: file.name, kind, share: 0 };
+    this.sending = [...this.sending, entry];
+    this.changed();
+    return entry;
+  }
+
+  private async give(file: File, entry: Sending): Promise<void> {
+    const told = (share: number): void => {
+      entry.share = share;
+      this.changed();
+    };
+    try {
+      if (entry.kind === "song") go("song", (await send<SongItem>("songs", file, told)).id);
+      else await this.motions(file, told);
+    } catch (error) {
+      const why = words(error);
+      notice(why.includes(entry.name) ? why : `${entry.name}: ${why}`, true);
+    }
+    this.sending = this.sending.filter((other) => other !== entry);
+    await this.store.refresh();
+    this.changed();
+  }
+
+  private async motions(file: File, told: (share: number) => void): Promise<void> {
+    const made = await send<MotionItem[]>("motions", file, told);
+    if (made.length === 1 && !location.hash.startsWith("#song")) go("motion", made[0].id);
+    if (made.length > 1) notice(`${made.length} motions came out of ${file.name}.`);
+  }
+
+  private hover(by: number): void {
+    this.depth = Math.max(this.depth + by, 0);
+    at("drop").hidden = this.depth === 0;
+  }
+}
+
+function megabytes(bytes: number): string {
+  return `${(bytes / 2 ** 20).toLocaleString("en", { maximumFractionDigits: bytes < 2 ** 20 ? 2 : 0 })} MB`;
+}

@@ -1,0 +1,111 @@
+// A stage with one dancer. Browsers give few of them to a page, so that each is kept and other dancers come onto it.
+
+import type { PageData } from "../contract";
+import { lastBefore } from "../data";
+import { Dancer } from "../dancer";
+import { type Places, StoredPath } from "../path";
+import { reachOf, type ViewName } from "../presets";
+import { Stage } from "../stage";
+import { words } from "./api";
+import { h, say } from "./elements";
+
+const TURNED = 0.15; // a change of the picture's shape after which the camera is placed anew
+
+/** A body's places as all stages have them: the ground at height 0, and at first it faces +Y. */
+class Turned implements Places {
+  private readonly places: StoredPath;
+  private readonly cos: number;
+  private readonly sin: number;
+
+  constructor(private readonly scene: PageData) {
+    this.places = new StoredPath(scene);
+    [this.cos, this.sin] = [Math.cos(scene.facing), Math.sin(scene.facing)];
+  }
+
+  read(time: number, into: Float32Array): void {
+    this.places.read(time, into);
+    for (let i = 0; i < into.length; i += 3) {
+      const [x, y] = [into[i], into[i + 1]];
+      into[i] = this.cos * x + this.sin * y;
+      into[i + 1] = this.cos * y - this.sin * x;
+      into[i + 2] -= this.scene.floor;
+    }
+  }
+}
+
+export class Look {
+  readonly root: HTMLElement;
+  private readonly canvas = h("canvas", { class: "scene", role: "img" });
+  private readonly caption = h("figcaption", { hidden: true });
+  private readonly problem = h("p", { class: "problem", role: "alert", hidden: true });
+  private stage?: Stage;
+  private scene?: PageData;
+  private shape = 0; // of the picture when the camera was placed
+  private night = false;
+  view: ViewName = "follow";
+
+  constructor() {
+    this.root = h("figure", { class: "look" }, this.canvas, this.caption, this.problem);
+  }
+
+  /** The joints as last drawn [m], for scripts and tests. */
+  get joints(): number[] {
+    return Array.from(this.stage?.dancer.joints ?? []);
+  }
+
+  set dark(dark: boolean) {
+    this.night = dark;
+    if (this.stage) this.stage.dark = dark;
+  }
+
+  /** Where the camera looks from. */
+  look(view: ViewName): void {
+    this.view = view;
+    this.stage?.look(view);
+  }
+
+  /** Another dancer comes; `name` stands under it where there are two. */
+  show(scene: PageData, name: string, told: string): void {
+    this.scene = scene;
+    say(this.caption, name);
+    this.caption.hidden = name === "";
+    this.canvas.setAttribute("aria-label", `${told}. Drag to look around, scroll to come closer.`);
+    this.dress();
+  }
+
+  clear(): void {
+    this.scene = undefined;
+  }
+
+  draw(time: number, seconds: number, playing: boolean): void {
+    const { scene } = this;
+    if (!scene || !this.canvas.clientWidth || !this.canvas.isConnected) return;
+    const shape = this.canvas.clientWidth / this.canvas.clientHeight;
+    if (Math.abs(Math.log(shape / (this.shape || shape))) > TURNED || !this.shape) this.dress();
+    const at = Math.min(Math.max(time, 0), scene.duration);
+    const beat = lastBefore(scene.beats, at);
+    const since = beat < 0 ? 9 : at - scene.beats[beat];
+    const down = beat >= 0 && scene.downbeats.some((start) => Math.abs(start - scene.beats[beat]) < 0.01);
+    this.stage?.draw(at, seconds, since, playing ? (down ? 1 : 0.55) : 0);
+  }
+
+  private dress(): void {
+    const { scene, canvas } = this;
+    if (!scene || !canvas.isConnected || !canvas.clientHeight) return;
+    this.shape = canvas.clientWidth / canvas.clientHeight;
+    try {
+      const places = new Turned(scene);
+      const dancer = new Dancer({ ...scene, floor: 0 }, places);
+      if (this.stage) this.stage.replace(dancer);
+      else this.stage = new Stage(canvas, { floor: 0, facing: 0 }, dancer);
+      this.stage.survey(reachOf(places, scene.joints.length, scene.spine[0], scene.duration, 0));
+      this.stage.look(this.view, true);
+      this.stage.dark = this.night;
+      this.problem.hidden = true;
+    } catch (error) {
+      this.problem.textContent = words(error);
+      this.problem.hidden = false;
+      this.scene = undefined;
+    }
+  }
+}

@@ -1,0 +1,20 @@
+// Words that come up at the foot of the page and go again; what went wrong stays until it is put away.
+
+import { at, h } from "./elements";
+
+const STAYS = 6000; // [ms]
+const MOST = 4;
+
+export function notice(words: string, bad = false): void {
+  const away = h(
+    "button",
+    { type: "button", "aria-label": "Put this message away", onclick: () => entry.remove() },
+    "×",
+  );
+  const entry = h("li", { class: bad ? "bad" : "" }, h("span", {}, words), away);
+  const list = at("notices");
+  for (const old of Array.from(list.children)) if (old.firstChild?.textContent === words) old.remove();
+  list.append(entry);
+  while (list.children.length > MOST) list.firstElementChild?.remove();
+  if (!bad) setTimeout(() => entry.remove(), STAYS);
+}

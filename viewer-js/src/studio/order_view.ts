@@ -1,0 +1,233 @@
+// What is to be danced: song, moves, how long, how, and by whom.
+
+import { ask } from "./api";
+import type { DanceItem, DanceOrder } from "./contract";
+import { complain } from "./dialogs";
+import { button, choice, field, h, offer, say } from "./elements";
+import { type Part, StretchChooser } from "./stretch";
+import { go, type Studio, type View } from "./view";
+import { exactly, plainName } from "./words";
+
+const USUAL = 60; // [s] of a song that are danced, if it is longer
+const MOST_WEIGHT = 2; // of the usual weight of the intensity
+
+export class OrderView implements View {
+  readonly root = h("article", { class: "view order" });
+  readonly title = "A new dance";
+  private readonly song = choice([], "");
+  private readonly library = choice([], "");
+  private readonly method = choice([], "");
+  private readonly robot = choice([], "");
+  private readonly start = number("start", 0, 0, 36000);
+  private readonly seconds = number("seconds", USUAL, 1, 36000);
+  private readonly weight = h("input", {
+    type: "range",
+    name: "intensity_weight",
+    min: 0,
+    max: MOST_WEIGHT,
+    step: 0.1,
+    value: 1,
+  });
+  private readonly weightTold = h("output", {});
+  private readonly speed = number("speed", 1, 0.5, 2);
+  private readonly seed = number("seed", 0, 0, 2 ** 31, 1);
+  private readonly name = h("input", {
+    type: "text",
+    name: "name",
+    maxlength: 120,
+    placeholder: "Named after song and moves",
+  });
+  private readonly problem = h("p", { class: "problem", role: "alert", hidden: true });
+  private readonly methodTold = h("small", {});
+  private readonly lengthTold = h("small", {});
+  private readonly go = h("button", { type: "submit", class: "text strong big", form: "order" }, "Dance");
+  private readonly form: HTMLFormElement;
+  private readonly stretch: StretchChooser;
+
+  /** `given` is SONG or SONG/LIBRARY, ids of what is chosen already. */
+  constructor(
+    private readonly studio: Studio,
+    given: string,
+  ) {
+    for (const [name, select] of Object.entries({
+      song: this.song,
+      library: this.library,
+      method: this.method,
+      robot: this.robot,
+    })) {
+      select.setAttribute("name", name);
+    }
+    this.form = this.made();
+    this.form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void this.send();
+    });
+    this.weight.addEventListener("input", () => this.tell());
+    for (const select of [this.method, this.song])
+      select.addEventListener("change", () => this.chosen(select === this.song));
+    for (const entry of [this.start, this.seconds]) entry.addEventListener("input", () => this.tell());
+    this.stretch = new StretchChooser(
+      studio,
+      () => this.part(),
+      ({ from, to }) => this.take(from, to),
+    );
+    studio.player.load({ url: null, start: 0, speed: 1, duration: 0 });
+    this.root.append(h("header", { class: "head" }, h("h2", {}, this.title), this.go), this.form, this.stretch.root);
+    this.update();
+    const [song, library] = given.split("/");
+    if (song) this.song.value = song;
+    if (library) this.library.value = library;
+    this.chosen(true);
+  }
+
+  update(): void {
+    const { project } = this.studio.store;
+    if (!project) return;
+    const ready = <T extends { state: string }>(items: readonly T[]): T[] =>
+      items.filter(({ state }) => state === "ready");
+    offer(
+      this.song,
+      ready(project.songs).map(({ id, name, duration }) => [id, `${plainName(name)} · ${exactly(duration)}`]),
+      this.song.value || newest(ready(project.songs)),
+    );
+    offer(
+      this.library,
+      ready(project.libraries).map(({ id, name, clips }) => [id, `${name}${clips ? ` · ${clips} clips` : ""}`]),
+      this.library.value || newest(ready(project.libraries)),
+    );
+    offer(
+      this.method,
+      project.methods.map(({ name }) => [name, name]),
+      this.method.value || "optimal",
+    );
+    offer(this.robot, [
+      ["", "a character, as the moves are"],
+      ...project.robots.map(({ name, title }) => [name, title || name] as const),
+    ]);
+    this.go.disabled = !this.song.value || !this.library.value;
+  }
+
+  frame(time: number): void {
+    this.stretch.frame(time);
+  }
+
+  key(event: KeyboardEvent): boolean {
+    return this.stretch.key(event);
+  }
+
+  dim(): void {
+    this.stretch.dim();
+  }
+
+  private made(): HTMLFormElement {
+    const whole = button("Whole song", () => this.take(Number(this.start.value), this.duration));
+    return h(
+      "form",
+      { class: "form", id: "order" },
+      h(
+        "fieldset",
+        {},
+        h("legend", {}, "Music and moves"),
+        field("Song", this.song),
+        field("Library of moves", this.library),
+        h("div", { class: "pair" }, field("From second", this.start), field("Seconds", this.seconds)),
+        h("div", { class: "row" }, this.lengthTold, whole),
+      ),
+      h(
+        "fieldset",
+        {},
+        h("legend", {}, "How it is danced"),
+        field("λ: follows the rhythm, or the intensity", this.weight),
+        h(
+          "div",
+          { class: "ends", "aria-hidden": "true" },
+          h("span", {}, "rhythm"),
+          this.weightTold,
+          h("span", {}, "intensity"),
+        ),
+        field("Method", this.method),
+        this.methodTold,
+        h("div", { class: "pair" }, field("Speed of the music", this.speed), field("Seed", this.seed)),
+      ),
+      h("fieldset", {}, h("legend", {}, "Who dances"), field("Danced by", this.robot), field("Name", this.name)),
+      this.problem,
+    );
+  }
+
+  private get duration(): number {
+    return this.studio.store.project?.songs.find(({ id }) => id === this.song.value)?.duration ?? 0;
+  }
+
+  private longest(): number {
+    return Math.max(Math.round((this.duration - Number(this.start.value)) * 10) / 10, 1);
+  }
+
+  private chosen(song: boolean): void {
+    if (song) this.seconds.value = String(Math.min(this.longest(), USUAL));
+    void this.stretch.open(this.song.value);
+    this.tell();
+  }
+
+  private part(): Part {
+    const from = Number(this.start.value);
+    return { from, to: Math.min(from + Number(this.seconds.value), this.duration) };
+  }
+
+  private take(from: number, to: number): void {
+    this.start.value = from.toFixed(1);
+    this.seconds.value = (to - from).toFixed(1);
+    this.tell();
+  }
+
+  private tell(): void {
+    const method = this.studio.store.project?.methods.find(({ name }) => name === this.method.value);
+    say(this.methodTold, method?.title ?? "");
+    const weight = Number(this.weight.value);
+    this.stretch.dim();
+    say(this.weightTold, weight === 0 ? "0: rhythm only" : weight === 1 ? "1: as usual" : weight.toFixed(1));
+    this.weight.setAttribute(
+      "aria-valuetext",
+      `${weight.toFixed(1)}, from 0, the rhythm only, to ${MOST_WEIGHT}, mostly the intensity`,
+    );
+    say(this.lengthTold, this.duration ? `The song has ${exactly(this.duration)}.` : "");
+  }
+
+  private order(): DanceOrder {
+    const whole = Number(this.seconds.value) >= this.longest() - 0.05;
+    return {
+      song: this.song.value,
+      library: this.library.value,
+      start: Number(this.start.value),
+      seconds: whole ? null : Number(this.seconds.value),
+      method: this.method.value,
+      seed: Number(this.seed.value),
+      intensity_weight: Number(this.weight.value),
+      robot: this.robot.value || null,
+      speed: Number(this.speed.value),
+      keep: [],
+      name: this.name.value.trim(),
+    };
+  }
+
+  private async send(): Promise<void> {
+    this.go.disabled = true;
+    this.problem.hidden = true;
+    try {
+      const dance = await ask<DanceItem>("POST", "dances", this.order());
+      await this.studio.store.refresh();
+      go("dance", dance.id);
+    } catch (error) {
+      complain(this.form, this.problem, error);
+    }
+    this.go.disabled = false;
+  }
+}
+
+function number(name: string, value: number, min: number, max: number, step: number | "any" = "any"): HTMLInputElement {
+  return h("input", { type: "number", name, value, min, max, step, required: true });
+}
+
+/** What was added last is what somebody wants to dance with. */
+function newest(items: readonly { id: string }[]): string {
+  return items[items.length - 1]?.id ?? "";
+}
