@@ -15,6 +15,7 @@ from onbeat.keyposes.lowdim_document import LowdimDocument
 from onbeat.keyposes.threshold_file import LearnedDocument
 from onbeat.music.song import SongDocument
 from onbeat.reproduce.document import ResultsDocument
+from onbeat.reproduce.study_answers import StudyDocument
 from onbeat.retime.document import RetimeDocument
 from onbeat.retime.observe_document import ObserveDocument
 from onbeat.robots.document import RobotDocument
@@ -56,8 +57,8 @@ too great to be searched whole:
 | `gap_at_most` | 0…1: by what share of `bound` the best plan of the part may be below the best there is |
 
 `wishes` is there where something was wished: `kept_s` and `favourites_s` are the seconds that were kept and that show
-favourites, `forbidden_clips` how many there are; of `objective`, `favourites_earned` is for favourites and `seed_earned`
-for what the seed likes.
+favourites, `forbidden_clips` how many there are; of `objective`, `favourites_earned` is for favourites and
+`seed_earned` for what the seed likes.
 """
 
 
@@ -73,6 +74,11 @@ DOCUMENTS = (
     Document("retime.json", RetimeDocument, "Written by `onbeat retime MOTION … -o FOLDER` beside the motion."),
     Document("robot.json", RobotDocument, "Written by `onbeat robot MOTION … -o FOLDER` beside the dance."),
     Document("answers.json", AnswersDocument, "Saved by `judge.html`, read by `onbeat lowdim --judged`."),
+    Document(
+        "answers.json of a study",
+        StudyDocument,
+        "Saved by `study.html`, and kept by `onbeat reproduce study FOLDER` in its folder `answers`, a file a person.",
+    ),
     Document("results.json", ResultsDocument, "Written by `onbeat reproduce` beside the pages of the papers."),
     Document("Report of a motion file", FileReport, "Printed by `onbeat info FILE --json`."),
 )

@@ -41,3 +41,7 @@ class MetricError(OnbeatError):
 
 class LimitError(OnbeatError):
     """Limits of joints that cannot be, cannot be read, or are missing for a joint."""
+
+
+class FetchError(OnbeatError):
+    """Data that cannot be fetched: no network, not there, not what was expected, no room for it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import sys
 import tempfile
 from pathlib import Path
 
@@ -42,3 +43,16 @@ def make_folder(path: str | os.PathLike[str]) -> Path:
     except OSError as error:
         raise OnbeatError(f"cannot make the folder {folder}: {error.strerror or error}") from None
     return folder
+
+
+def lock_file(handle: int) -> None:
+    """Lock an open file for this process alone, or raise ``OSError`` at once; the lock dies with the process."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        os.lseek(handle, 64, os.SEEK_SET)  # past what is written in it, which others may read
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

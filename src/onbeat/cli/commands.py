@@ -24,6 +24,11 @@ COMMANDS = {
         "Build, show, check and change motion libraries: clips and the joins between them.",
         "onbeat moves build my_clips -o my_library",
     ),
+    "songs": (
+        "onbeat.cli.songs:songs_app",
+        "List songs with free licences, and fetch them.",
+        "onbeat songs fetch vibe-ace",
+    ),
     "keyposes": (
         "onbeat.cli.keyposes:keyposes_app",
         "Find the keyposes of a dance: the poses in which it rests on the beat; learn how, measure how well.",
@@ -78,6 +83,16 @@ COMMANDS = {
         "onbeat.cli.robots:robots_command",
         "List the robots that are known by name, or what the joints of one can do: how far, how fast.",
         "onbeat robots g1",
+    ),
+    "studio": (
+        "onbeat.cli.studio:studio_command",
+        "Open the studio, a local web app: drop a song and motion files in, look, correct, dance, compare, export.",
+        "onbeat studio my_project",
+    ),
+    "reproduce": (
+        "onbeat.cli.reproduce:reproduce_app",
+        "Do the papers' experiments again: every table and figure of theirs beside ours.",
+        "onbeat reproduce P1 -o reproduced",
     ),
 }
 """Of each command: where it is, what it does in a sentence, and an example."""

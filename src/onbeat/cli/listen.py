@@ -15,6 +15,7 @@ from rich.text import Text
 
 import onbeat
 from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
+from onbeat.cli.fetching import song_path
 from onbeat.cli.progress import warnings_as_lines
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
@@ -134,7 +135,8 @@ def listen_command(
     Parameters
     ----------
     song
-        A wav, flac, ogg or mp3 file; with the extra ``video`` also m4a, mp4 and others.
+        A wav, flac, ogg or mp3 file; with the extra ``video`` also m4a, mp4 and others; or ``song:NAME`` of one that
+        ``onbeat songs fetch`` fetched.
     output
         Where to write what was heard: ``.json`` (everything), ``.csv`` (a line a beat) or ``.jams`` (for research).
     method
@@ -156,6 +158,7 @@ def listen_command(
     for path, endings in ((output, DOCUMENTS), (click, CLICKS), (plot, PICTURES)):
         if path:
             _check_ending(path, endings)
+    song = song_path(song)
     heard = _hear(song, method, start, seconds, flags.corrections())
     if output:
         _write(output, heard)

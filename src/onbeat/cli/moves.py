@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 import cyclopts
 
+from onbeat.cli.fetching import moves_path
 from onbeat.cli.moves_show import print_library, tell_problems
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.errors import LibraryError
@@ -15,6 +16,7 @@ from onbeat.errors import LibraryError
 moves_app = cyclopts.App(name="moves", help="Build, show, check and change motion libraries: clips and their joins.")
 for _name in ("verify", "remove", "merge"):
     moves_app.command(f"onbeat.cli.moves_manage:{_name}_command", name=_name)
+moves_app.command("onbeat.cli.moves_fetch:fetch_command", name="fetch")
 Flag = cyclopts.Parameter(negative=())
 
 
@@ -41,7 +43,7 @@ def build_command(
     Parameters
     ----------
     paths
-        Motion files (.bvh, .amc, .npz) and folders of them.
+        Motion files (.bvh, .amc, .npz), folders of them, and names of sets that ``onbeat moves fetch`` fetched.
     output
         The library's folder.
     mirror
@@ -66,6 +68,7 @@ def build_command(
     if fps is not None and not 0.1 <= fps <= 10000:
         raise LibraryError(f"{fps:g} frames a second cannot be; give a rate from 0.1 to 10000")
     engine = Engine.of(scheduler if scheduler is not None else workers)
+    paths = [moves_path(path) for path in paths]
     with warnings_as_lines(), Stages() as stages:
         library = build_library(
             paths,

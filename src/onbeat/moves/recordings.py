@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from onbeat.errors import FormatError, LibraryError
+from onbeat.fetch import Receipt, receipt_above
 from onbeat.formats.asfamc import skeleton_file
 from onbeat.formats.read import motion_files, read_motion
 from onbeat.motion.motion import Motion
@@ -83,10 +84,24 @@ def find_recordings(paths: Sequence[Path], fps: float | None = None) -> list[Rec
     with ThreadPoolExecutor(4) as pool:  # most of the time is spent waiting for the disk
         digests = list(pool.map(content_digest, (file for file, _ in files)))
     names = _names([label for _, label in files])
+    told = _told_by_receipts([file.resolve() for file, _ in files])
     return [
-        Recording(name, label, digest, partial(read_motion, file, fps), file)
-        for (file, label), name, digest in zip(files, names, digests, strict=True)
+        Recording(name, label, digest, partial(read_motion, file, fps or rate), file, about)
+        for (file, label), name, digest, (rate, about) in zip(files, names, digests, told, strict=True)
     ]
+
+
+def _told_by_receipts(files: Sequence[Path]) -> list[tuple[float | None, About]]:
+    """Of each file what the receipt of data that was fetched tells: its rate, where it stores none, and what it is."""
+    receipts = {folder: receipt_above(folder / "file") for folder in {file.parent for file in files}}
+    return [_told(receipts[file.parent], file.name) for file in files]
+
+
+def _told(receipt: Receipt | None, file: str) -> tuple[float | None, About]:
+    if receipt is None:
+        return None, About()
+    about = About(receipt.performer_of(file), receipt.genre or None, receipt.licence)
+    return (None if receipt.fps_stored else receipt.fps), about
 
 
 def _files(path: Path) -> list[tuple[Path, str]]:
