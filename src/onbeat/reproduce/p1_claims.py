@@ -1,0 +1,76 @@
+"""What the 2006 paper claims, and whether it holds here."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from onbeat.reproduce.p1_dances import Danced
+from onbeat.reproduce.p1_songs import Tune
+from onbeat.reproduce.p1_tables import Dances, median, shown, tracked
+from onbeat.reproduce.result import Claim
+
+CLEAR = 3.0
+"""Deviations above chance from which on stops follow the beats."""
+
+
+def claims(tunes: Sequence[Tune], dances: Dances) -> tuple[Claim, ...]:
+    """The claims of Sec. VI, in order."""
+    return (_tracking(tunes), _matching(dances), _following(dances), _needed(dances))
+
+
+def _tracking(tunes: Sequence[Tune]) -> Claim:
+    said = "The beats of most songs are tracked (10 of 13)."
+    if any(tune.known == "heard" for tune in tunes):
+        return Claim(said, None, "The true beats of these songs are not known.")
+    published, ours = (sum(tracked(tune, heard) for tune, heard in pairs) for pairs in _heard(tunes))
+    return Claim(
+        said,
+        published > len(tunes) / 2,
+        f"Heard as published, {published} of {len(tunes)} are tracked; by onbeat, {ours}.",
+    )
+
+
+def _heard(tunes: Sequence[Tune]):
+    return [(tune, tune.published) for tune in tunes], [(tune, tune.ours) for tune in tunes]
+
+
+def _matching(dances: Dances) -> Claim:
+    recall, above = (median(dances["published"], name) for name in ("recall100", "f50_jitter_z"))
+    chance = shown(median(dances["walk"], "recall100", before=True), "r")
+    return Claim(
+        "Most beats of the music meet a stop of the hands.",
+        (recall or 0.0) > 0.5 and (above or 0.0) > CLEAR,
+        f"As published, {shown(recall, 'r')} of the beats have a stop within 100 ms, {shown(above, '_z')} deviations "
+        f"above beats moved at random; of a random walk's, {chance} have. By onbeat, "
+        f"{shown(median(dances['ours'], 'recall100'), 'r')}.",
+    )
+
+
+def _following(dances: Dances) -> Claim:
+    r, by_chance = (median(dances[name], "intensity_pearson") for name in ("published", "walk"))
+    return Claim(
+        "The dance follows the intensity of the music.",
+        r is not None and r > 0.3 and r > (by_chance or 0.0),
+        f"As published, motion and music correlate by {shown(r, 'r')} at the median; a random walk by "
+        f"{shown(by_chance, 'r')}; onbeat by {shown(median(dances['ours'], 'intensity_pearson'), 'r')}. Under 0.3 "
+        "little of it would be seen.",
+    )
+
+
+def _needed(dances: Dances) -> Claim:
+    pairs = list(zip(dances["published"], dances["published rhythm"], strict=True))
+    more, ours_more = _more(pairs), _more(list(zip(dances["ours"], dances["ours rhythm"], strict=True)))
+    told = [shown(median(dances[name], "intensity_pearson"), "r") for name in ("published", "published rhythm")]
+    ours = [shown(median(dances[name], "intensity_pearson"), "r") for name in ("ours", "ours rhythm")]
+    return Claim(
+        "With the intensity component it is followed better than with rhythm alone.",
+        more > len(pairs) / 2,
+        f"As published, in {more} of {len(pairs)} songs (median {told[0]} with it, {told[1]} without); by onbeat, in "
+        f"{ours_more} ({ours[0]} and {ours[1]}).",
+    )
+
+
+def _more(pairs: Sequence[tuple[Danced, Danced]]) -> int:
+    """Songs in which the first dance correlates more with the music than the second."""
+    values = [[one.scores["intensity_pearson"] or 0.0 for one in pair] for pair in pairs]
+    return sum(both > rhythm for both, rhythm in values)

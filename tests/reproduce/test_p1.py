@@ -1,0 +1,137 @@
+"""The paper of 2006 done again on eight seconds of a plain song: what is told is what was danced."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from onbeat.errors import OnbeatError
+from onbeat.metrics.beats import recall
+from onbeat.moves.graph import GRID
+from onbeat.moves.library import MoveLibrary
+from onbeat.reproduce import p1
+from onbeat.reproduce.data import Data
+from onbeat.reproduce.p1_choice import choice_before
+from onbeat.reproduce.p1_dances import METHODS, Danced, dance
+from onbeat.reproduce.p1_figures import features_figure
+from onbeat.reproduce.p1_songs import Tune, found, interval, tunes
+from onbeat.reproduce.p1_tables import beat_table
+from onbeat.reproduce.result import FigureResult, PaperResult, TableResult
+from sounds import HEARD_RATE, beat_times, hat, kick, mix, piano
+
+
+@pytest.fixture(scope="module")
+def library(troupe: MoveLibrary) -> MoveLibrary:
+    """Some clips of the troupe, without their mirror images."""
+    return MoveLibrary.of([clip for clip in troupe.clips if not clip.mirrored][:6])
+
+
+@pytest.fixture(scope="module")
+def song(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A wave file of eight seconds, with its beats beside it."""
+    folder = tmp_path_factory.mktemp("songs")
+    rng, times = np.random.default_rng(1), beat_times(110.0, 8.0)
+    band = [(time, kick()) for time in times] + [(time, hat(rng)) for time in times]
+    band += [(time, piano(220.0 * 1.5 ** (k // 4 % 3))) for k, time in enumerate(times)]
+    soundfile.write(folder / "plain.wav", mix(8.0, band).samples, HEARD_RATE)
+    (folder / "plain.beats").write_text("\n".join(f"{time:.4f}" for time in times))
+    return folder / "plain.wav"
+
+
+@pytest.fixture(scope="module")
+def heard(song: Path) -> Tune:
+    """The song as it is heard."""
+    (tune,) = tunes(Data(songs=(song,), quick=True), lambda share, what: None)
+    return tune
+
+
+@pytest.fixture(scope="module")
+def danced(heard: Tune, library: MoveLibrary) -> Danced:
+    """The dance to it as published."""
+    return dance(heard, library, METHODS["published"], 0)
+
+
+@pytest.fixture(scope="module")
+def result(song: Path, library: MoveLibrary) -> PaperResult:
+    """The whole paper on it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(p1, "open_library", lambda data: library)
+        return p1.PAPER.reproduce(Data(songs=(song,), quick=True), lambda share, what: None)
+
+
+def test_beats_beside_a_song_are_taken_as_true(heard: Tune):
+    assert heard.known == "annotated"
+    assert interval(heard.truth.beats) == pytest.approx(60 / 110, abs=1e-3)
+    assert found(heard, heard.ours) > 0.9
+    moved = replace(heard.ours, beats=heard.ours.beats + 0.1)
+    assert found(heard, moved) == 0.0
+
+
+def test_a_song_that_is_not_there_is_refused(tmp_path: Path):
+    with pytest.raises(OnbeatError, match=r"no song .*none\.wav"):
+        tunes(Data(songs=(tmp_path / "none.wav",)), lambda share, what: None)
+
+
+def test_the_decision_that_is_drawn_is_the_one_that_was_taken(danced: Danced, library: MoveLibrary):
+    made, seen = danced.dance, 0
+    for move in range(1, min(len(made.plan.moves) - 1, 5)):
+        choice = choice_before(made, library, move)
+        following = made.plan.moves[move + 1]
+        ahead = round(following.at_s * GRID) - choice.begin
+        if 0 <= ahead < choice.paths.shape[1]:
+            entry = int(library.starts[following.clip]) + round(following.from_s * GRID)
+            assert choice.paths[choice.chosen][ahead] == entry
+            seen += 1
+        assert choice.chosen < choice.best <= 16
+        assert (np.diff(choice.rhythm[: choice.best]) <= 1e-6).all()
+        assert choice.intensity[choice.chosen] == choice.intensity[: choice.best].max()
+    assert seen
+
+
+def test_every_table_and_figure_is_there_in_order(result: PaperResult):
+    numbers = [part.number for part in result.parts]
+    figures = ["Fig. 2", "Fig. 5", "Fig. 6", "Fig. 7", "Fig. 8"]
+    assert [number for number in numbers if number.startswith("Fig.")] == figures
+    assert numbers.index("Fig. 5") < numbers.index("Table I") < numbers.index("Fig. 6")
+    for part in result.parts:
+        if isinstance(part, FigureResult):
+            assert part.svg.startswith(b"<?xml")
+            assert b"<dc:date>" not in part.svg
+
+
+def test_the_papers_numbers_stand_beside_ours(result: PaperResult):
+    table = next(part for part in result.parts if part.number == "Table I")
+    assert isinstance(table, TableResult)
+    printed = {row.label: row.paper for row in table.rows}
+    assert printed["“Do Me”"] == "0.447 s (134)"
+    assert printed["songs tracked"] == "10 of 13"
+    plain = next(row for row in table.rows if row.label == "plain")
+    assert (plain.paper, plain.others[1]) == (None, "0.545 s (110)")
+
+
+def test_what_differs_is_told(result: PaperResult):
+    told = " ".join(result.differs)
+    assert "made, not captured" in told
+    assert "composed" not in told  # the song was given
+    assert "A first look" in result.our_data
+
+
+def test_what_is_told_of_the_rhythm_is_measured_on_the_dance(danced: Danced, result: PaperResult):
+    share = recall(danced.features.body_stops, danced.tune.truth.beats, 0.1)
+    table = next(part for part in result.parts if part.number == "Sec. VI, rhythm")
+    assert isinstance(table, TableResult)
+    assert table.rows[0].ours == f"{share:.2f}"
+
+
+def test_one_composed_song_is_a_table_too(heard: Tune):
+    table = beat_table([replace(heard, known="composed")], composed=True)
+    assert [row.paper for row in table.rows] == ["0.598 s (100)", "10 of 13"]
+
+
+def test_the_same_figure_is_the_same_bytes(danced: Danced):
+    first, again = (features_figure(danced.features, 1.0, 5.0) for _ in range(2))
+    assert first == again

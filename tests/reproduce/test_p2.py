@@ -1,0 +1,135 @@
+"""P2 done again: takes, what is observed of them, methods on a robot's limits, and the page's parts."""
+
+import numpy as np
+import pytest
+
+from onbeat.errors import MetricError
+from onbeat.examples.dancers import DANCERS
+from onbeat.examples.dances import perform_dance
+from onbeat.formats.write import write_motion
+from onbeat.motion.joint_angles import JointAngles
+from onbeat.reproduce.data import Data
+from onbeat.reproduce.p2 import PAPER
+from onbeat.reproduce.p2_curves import lowered, stretches
+from onbeat.reproduce.p2_hand import compared, hand_paths
+from onbeat.reproduce.p2_methods import OURS, PRINTED, PUBLISHED, ask, detail_kept
+from onbeat.reproduce.p2_observed import detail_left, kept, observed
+from onbeat.reproduce.p2_seen import Seen
+from onbeat.reproduce.p2_seen_claims import seen_claims
+from onbeat.reproduce.p2_takes import Solo, real_takes, troupe_takes
+from onbeat.reproduce.result import FigureResult
+from onbeat.retime.bspline import Spline
+from onbeat.retime.sources import Table
+
+PERIOD = 0.5
+
+
+@pytest.fixture(scope="module")
+def danced():
+    return observed(troupe_takes(2, (1.0, 1.5), 3))
+
+
+@pytest.fixture(scope="module")
+def played():
+    return observed(troupe_takes(2, (1.0, 1.5), 3, played=True))
+
+
+@pytest.fixture(scope="module")
+def asked():
+    """Two joints of the robot that swing too fast in the middle of a dance, with a tremble of 6 Hz."""
+    times = np.arange(0, 12, 1 / 60)
+    fast = np.exp(-np.square((times - 6) / 0.8))
+    swing = 0.5 * np.sin(2 * np.pi * times / (4 * PERIOD)) + 0.7 * fast * np.sin(2 * np.pi * 1.8 * times)
+    angles = np.stack((swing + 0.01 * np.sin(2 * np.pi * 6 * times), 0.5 * swing), axis=1)
+    table = Table(JointAngles(("L_SHOULDER_Y", "L_SHOULDER_R"), angles, 60.0, "swing"))
+    beats = np.arange(0, 12, PERIOD)
+    return ask(table, Solo(None, beats, beats[1::2]), 1.2)
+
+
+def test_details_fade_where_the_dance_is_danced_faster_and_stay_where_it_is_merely_played(danced, played):
+    assert detail_left(danced)[-1] < 0.75
+    assert abs(detail_left(played)[-1] - 1) < 0.06
+
+
+def test_valleys_are_keyposes_far_more_often_than_by_chance(danced):
+    told = kept(danced)
+    assert told.precision > 0.5
+    assert told.recall > 2 * told.chance
+
+
+def test_a_hand_goes_a_shorter_way_in_faster_music_but_not_where_it_is_merely_played(danced, played):
+    lengths = [
+        compared(*(hand_paths(one.takes, speed) for speed in (1.0, 1.5)), one.takes.keyposes).length
+        for one in (danced, played)
+    ]
+    assert lengths[0] < 0.93
+    assert abs(lengths[1] - 1) < 0.03
+
+
+def test_claims_turn_where_the_dance_is_merely_played(danced, played):
+    of_danced, of_played = (seen_claims(Seen((one,), (), (one.takes,))) for one in (danced, played))
+    insight = 3
+    assert of_danced[insight].holds
+    assert not of_played[insight].holds
+    assert len(of_danced) == len(seen_claims(None, "no takes"))
+    assert {claim.holds for claim in seen_claims(None, "no takes")} == {None}
+
+
+def test_methods_keep_the_limits_and_ours_the_keyposes(asked):
+    assert asked.past == 2
+    assert asked.scaled[PUBLISHED].measures.violations == asked.scaled[OURS].measures.violations == (0, 0)
+    assert np.degrees(asked.scaled[OURS].measures.worst_keypose) < 0.5
+    assert PRINTED in asked.scaled
+    assert asked.scaled["uniform"].done < 0.9
+
+
+def test_detail_is_all_there_in_the_wish_and_gone_in_its_mean(asked):
+    demand = asked.scaled[OURS].result.demand
+    assert detail_kept(demand, demand.wish) == 1.0
+    still = Spline.through(np.zeros_like(demand.wish.samples), 60.0)
+    assert abs(detail_kept(demand, demand.wish.with_controls(still.controls))) < 1e-9
+    assert asked.slack < asked.scaled["pollard2002"].detail
+
+
+def test_layers_are_lowered_the_finest_first_and_the_limit_is_where_it_is_enlarged(asked):
+    result = asked.scaled[PUBLISHED].result
+    share, broken = lowered(result)
+    assert 0 < share < 1
+    assert broken == 0
+    away, at_limit = stretches([asked.scaled[name].result for name in ("pollard2002", OURS)])
+    assert at_limit.start < 6 / 1.2 < at_limit.end
+    assert not away.start < 6 / 1.2 < away.end
+
+
+def test_real_takes_are_observed_and_danced_where_nothing_can_be_simulated(tmp_path, monkeypatch):
+    monkeypatch.setattr("onbeat.reproduce.p2_tried.why_not", lambda: "no engine")
+    monkeypatch.setattr("onbeat.reproduce.p2_wish.why_not", lambda: "no engine")
+    for number, take in enumerate(troupe_takes(0, (1.0, 1.5), 1).takes):
+        path = tmp_path / f"take_{number}.bvh"
+        write_motion(take.motion, path)
+        path.with_suffix(".beats").write_text("".join(f"{beat:.4f}\n" for beat in take.beats if beat > 0))
+    found = PAPER.reproduce(Data(motions=(tmp_path,)), lambda share, what: None)
+    numbers = [part.number for part in found.parts]
+    assert {"Fig. 1", "Fig. 3", "Fig. 4", "Fig. 6", "Fig. 8"} <= set(numbers)
+    assert "Fig. 7" not in numbers
+    assert all(part.svg.startswith(b"<?xml") for part in found.parts if isinstance(part, FigureResult))
+    assert any("no engine" in line for line in found.differs)
+    assert [claim.holds for claim in found.claims[-2:]] == [None, None]
+
+
+def test_takes_without_beats_are_refused_with_what_to_write(tmp_path):
+    clip = perform_dance(DANCERS[0], "folk dance", 1.0, 1, np.random.default_rng(0))
+    paths = [tmp_path / "a.bvh", tmp_path / "b.bvh"]
+    for path in paths:
+        write_motion(clip.motion[:60], path)
+    with pytest.raises(MetricError, match=r"write a\.beats, a second a line"):
+        real_takes(paths)
+    with pytest.raises(MetricError, match="at several speeds"):
+        real_takes(paths[:1])
+
+
+def test_one_real_dance_that_nothing_can_be_made_of_says_both_reasons(tmp_path, monkeypatch):
+    path = tmp_path / "short.bvh"
+    write_motion(perform_dance(DANCERS[0], "folk dance", 1.0, 1, np.random.default_rng(0)).motion[:5], path)
+    with pytest.raises(Exception, match=r"nothing can be observed .* no robot can dance it"):
+        PAPER.reproduce(Data(motions=(path,)), lambda share, what: None)
