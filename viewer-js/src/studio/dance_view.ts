@@ -5,10 +5,11 @@ import { ask, words } from "./api";
 import { Clicks } from "./clicks";
 import type { DanceItem, DanceOrder, DanceView as Danced, SongView } from "./contract";
 import { DanceTools } from "./dance_tools";
-import { h, say } from "./elements";
+import { button, h, say } from "./elements";
 import { LockList } from "./lock_list";
 import { Locks } from "./locks";
 import { notice } from "./notices";
+import { LIKE } from "./order_view";
 import { palette } from "./palette";
 import { pending } from "./pending";
 import { Score } from "./score";
@@ -184,6 +185,7 @@ export class DanceView implements View {
             h("p", { class: "facts" }, facts.join(" · ")),
             item.note && h("p", { class: "note" }, item.note),
           ),
+          item.kind === "danced" && button("Dance it otherwise", () => go("order", `${LIKE}/${item.id}`)),
         ),
         h("div", { class: "looks" }, ...this.studio.looks.map(({ root }) => root)),
         transport.root,

@@ -9,6 +9,7 @@ import { go, type Studio, type View } from "./view";
 import { exactly, plainName } from "./words";
 
 const USUAL = 60; // [s] of a song that are danced, if it is longer
+export const LIKE = "like";
 const MOST_WEIGHT = 2; // of the usual weight of the intensity
 
 export class OrderView implements View {
@@ -43,8 +44,9 @@ export class OrderView implements View {
   private readonly go = h("button", { type: "submit", class: "text strong big", form: "order" }, "Dance");
   private readonly form: HTMLFormElement;
   private readonly stretch: StretchChooser;
+  private beside = ""; // the dance that was like it
 
-  /** `given` is SONG or SONG/LIBRARY, ids of what is chosen already. */
+  /** `given` is SONG or SONG/LIBRARY, ids of what is chosen already, or like/DANCE. */
   constructor(
     private readonly studio: Studio,
     given: string,
@@ -75,9 +77,25 @@ export class OrderView implements View {
     this.root.append(h("header", { class: "head" }, h("h2", {}, this.title), this.go), this.form, this.stretch.root);
     this.update();
     const [song, library] = given.split("/");
-    if (song) this.song.value = song;
-    if (library) this.library.value = library;
-    this.chosen(true);
+    const before = song === LIKE ? studio.store.dance(library ?? "") : undefined;
+    if (before) this.like(before);
+    else if (song) this.song.value = song;
+    if (library && !before) this.library.value = library;
+    this.chosen(before === undefined);
+  }
+
+  /** The order of an earlier dance, to be changed; both are shown side by side then. */
+  private like({ id, order }: DanceItem): void {
+    this.beside = id;
+    this.song.value = order.song;
+    this.library.value = order.library;
+    this.start.value = String(order.start);
+    this.seconds.value = String(order.seconds ?? this.longest());
+    this.weight.value = String(order.intensity_weight);
+    this.method.value = order.method;
+    this.speed.value = String(order.speed);
+    this.seed.value = String(order.seed);
+    this.robot.value = order.robot ?? "";
   }
 
   update(): void {
@@ -215,7 +233,7 @@ export class OrderView implements View {
     try {
       const dance = await ask<DanceItem>("POST", "dances", this.order());
       await this.studio.store.refresh();
-      go("dance", dance.id);
+      go("dance", this.beside ? `${dance.id}/${this.beside}` : dance.id);
     } catch (error) {
       complain(this.form, this.problem, error);
     }

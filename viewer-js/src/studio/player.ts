@@ -4,6 +4,8 @@
 const SNAP = 0.08; // [s] an error that is jumped, not pulled
 const PULL = 4; // [1/s]
 const AT_END = 0.02; // [s]
+const STALLED = 250; // [ms] without the sound going on, after which the picture waits for it
+const THERE = 0.001; // [s] of the sound that need no seeking
 
 /** What plays: the sound at `url`, whose second `start + speed t` is heard at second t. */
 export interface Playable {
@@ -25,6 +27,8 @@ export class Player {
   private shown = 0;
   private shownAt = 0;
   private moved = false; // whether the sound has begun to go on
+  private movedAt = 0; // [ms] when it was last seen to
+  private last = 0; // [s] that was heard then
 
   constructor(
     private readonly changed: () => void,
@@ -116,11 +120,12 @@ export class Player {
   /** Pulled to the sound; before it begins, and where it waits for data, time stands still. */
   private pulled(guess: number, passed: number): number {
     const heard = this.heard;
-    if (!this.moved && heard > this.shown + 0.001) this.moved = true;
-    const waits = this.audio.seeking || this.audio.readyState < HTMLMediaElement.HAVE_CURRENT_DATA;
-    if (!this.moved || waits) return this.shown;
+    if (heard > this.last + 0.001) [this.moved, this.movedAt] = [true, this.shownAt];
+    this.last = heard;
+    if (!this.moved) return this.shown;
     const error = heard - guess;
     if (Math.abs(error) > SNAP) return heard;
+    if (this.shownAt - this.movedAt > STALLED) return this.shown;
     return Math.max(guess + error * Math.min(1, passed * PULL), this.shown);
   }
 
@@ -128,6 +133,7 @@ export class Player {
     this.turns++;
     this.place(at);
     this.moved = false;
+    this.last = this.heard;
     this.shownAt = performance.now();
     if (!this.what.url || this.audio.error) return;
     this.audio.play().catch((error: DOMException) => {
@@ -142,7 +148,8 @@ export class Player {
   }
 
   private place(time: number): void {
-    if (this.what.url) this.audio.currentTime = this.what.start + time * this.what.speed;
+    const to = this.what.start + time * this.what.speed;
+    if (this.what.url && Math.abs(this.audio.currentTime - to) > THERE) this.audio.currentTime = to;
   }
 
   private pace(): void {

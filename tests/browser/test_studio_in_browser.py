@@ -1,0 +1,277 @@
+"""The studio as a user has it: a song and a motion are dropped, danced, played with sound, and exported."""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import soundfile
+
+from onbeat.examples.troupe import dance_library
+from onbeat.formats.write import write_motion
+from onbeat.viewer.contract import PathData, unpack_path
+from sounds import HEARD_RATE, beat_times, hat, kick, mix, piano, snare
+
+pytestmark = pytest.mark.browser
+STUDIO = [sys.executable, "-c", "from onbeat.cli import main; main()", "studio"]
+STATE = "window.onbeatStudio.state()"
+LONG = 90_000  # [ms] for a busy machine
+SECONDS = 14.0
+BPM = 112.0
+
+DROP = """files => {
+    const held = new DataTransfer();
+    for (const [name, base64] of files) {
+        held.items.add(new File([Uint8Array.from(atob(base64), letter => letter.charCodeAt(0))], name));
+    }
+    for (const kind of ["dragenter", "dragover", "drop"]) {
+        document.body.dispatchEvent(new DragEvent(kind, { dataTransfer: held, bubbles: true, cancelable: true }));
+    }
+}"""
+PLAYED = """async () => {
+    const seen = [];
+    while (seen.length < 12) {
+        await new Promise(requestAnimationFrame);
+        const { time, heard, joints, duration } = window.onbeatStudio.state();
+        if (time >= duration) break; // the picture stands still at the end
+        if (heard > 0.3) seen.push({ time, heard, joints });
+    }
+    return seen;
+}"""
+FAINT = """() => {
+    const read = words => {
+        const [r, g, b, a = 1] = words.match(/[\\d.]+/g).map(Number);
+        return { r, g, b, a };
+    };
+    const over = (top, under) => ({
+        r: top.a * top.r + (1 - top.a) * under.r,
+        g: top.a * top.g + (1 - top.a) * under.g,
+        b: top.a * top.b + (1 - top.a) * under.b,
+        a: 1,
+    });
+    const light = colour => {
+        const [r, g, b] = [colour.r, colour.g, colour.b]
+            .map(c => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const grounds = element => {
+        const layers = [];
+        for (let up = element; up; up = up.parentElement) {
+            const { backgroundColor, backgroundImage } = getComputedStyle(up);
+            const drawn = backgroundImage.match(/rgba?\\([^)]*\\)/g);
+            if (drawn) return drawn.map(words => layers.reduceRight((under, top) => over(top, under), read(words)));
+            const layer = read(backgroundColor);
+            if (layer.a > 0) layers.push(layer);
+            if (layer.a === 1) break;
+        }
+        return [layers.reduceRight((under, top) => over(top, under), { r: 255, g: 255, b: 255, a: 1 })];
+    };
+    const told = element => Array.from(element.childNodes).some(node => node.nodeType === 3 && node.textContent.trim());
+    const worst = element => {
+        const ink = read(getComputedStyle(element).color);
+        return Math.min(...grounds(element).map(ground => {
+            const [one, other] = [light(over(ink, ground)), light(ground)];
+            return (Math.max(one, other) + 0.05) / (Math.min(one, other) + 0.05);
+        }));
+    };
+    return Array.from(document.body.querySelectorAll("*"))
+        .filter(element => element.matches("input, select") || (told(element) && !element.matches("option, script")))
+        .filter(element => element.checkVisibility() && !element.closest(":disabled, [aria-hidden=true]"))
+        .map(element => [worst(element), element.tagName, element.className, element.textContent.slice(0, 40)])
+        .filter(([contrast]) => contrast < 4.5);
+}"""
+CONTROLS = "a[href], button, input, select, summary, [tabindex='0']"
+REACHABLE = f"""() => Array.from(document.querySelectorAll("{CONTROLS}"))
+    .filter(one => one.checkVisibility() && !one.disabled)
+    .map((one, i) => (one.dataset.place = String(i)))"""
+UNNAMED = f"""() => Array.from(document.querySelectorAll("{CONTROLS}")).filter(one => one.checkVisibility())
+    .filter(one => !(one.getAttribute("aria-label") || one.labels?.length || one.textContent.trim()))
+    .map(one => one.outerHTML.slice(0, 120))"""
+FOCUSED = """() => {
+    const one = document.activeElement;
+    const { outlineStyle, outlineWidth } = getComputedStyle(one);
+    return [one.dataset.place ?? "", outlineStyle !== "none" && parseFloat(outlineWidth) >= 2];
+}"""
+
+
+class Opened:
+    """The studio's page, and whatever it complained about."""
+
+    def __init__(self, page: Any, address: str) -> None:
+        self.page = page
+        self.complaints: list[str] = []
+        page.set_default_timeout(LONG)
+        page.on("console", lambda message: self.complaints.append(f"{message.type}: {message.text}"))
+        page.on("pageerror", lambda error: self.complaints.append(f"exception: {error}"))
+        page.goto(address)
+        page.wait_for_selector("#shelf .card")
+
+    def state(self) -> dict[str, Any]:
+        return self.page.evaluate(STATE)
+
+    def drop(self, files: dict[str, bytes]) -> None:
+        self.page.evaluate(DROP, [[name, base64.b64encode(data).decode()] for name, data in files.items()])
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    project = tmp_path_factory.mktemp("studio") / "evening"
+    words = [*STUDIO, str(project), "--port", "0", "--no-open"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        assert process.stdout is not None
+        yield process.stdout.readline().strip()
+    finally:
+        process.terminate()
+        process.wait(20)
+
+
+@pytest.fixture(scope="module")
+def opened(address: str, chromium: Any) -> Iterator[Opened]:
+    context = chromium.new_context(viewport={"width": 1024, "height": 640}, accept_downloads=True)
+    yield Opened(context.new_page(), address)
+    context.close()
+
+
+def song() -> bytes:
+    """A small band at a steady tempo, whose chords change with the bars."""
+    rng = np.random.default_rng(0)
+    beats = beat_times(BPM, SECONDS)
+    tones = (220.0, 174.6, 261.6, 196.0)
+    events = [(t, kick() if i % 2 == 0 else snare(rng)) for i, t in enumerate(beats)]
+    events += [(t + 30 / BPM, hat(rng)) for t in beats]
+    events += [(t, piano(tones[i // 4 % 4] * part, 2.0)) for i, t in enumerate(beats[::4]) for part in (1.0, 1.25, 1.5)]
+    sound = io.BytesIO()
+    soundfile.write(sound, mix(SECONDS, events).samples, HEARD_RATE, format="WAV")
+    return sound.getvalue()
+
+
+def motion(folder: Path) -> bytes:
+    write_motion(dance_library()[0].motion[:240], folder / "walk.bvh")
+    return (folder / "walk.bvh").read_bytes()
+
+
+def poses(page: Any, dance: str) -> tuple[np.ndarray, float]:
+    """The dance's joints (frames, joints, 3) as the page turns them, and their rate, as the server tells them."""
+    scene = page.evaluate(f"fetch('/api/dances/{dance}').then(answer => answer.json())")["scene"]
+    path = unpack_path(PathData(**scene["path"]), len(scene["joints"])) - [0, 0, scene["floor"]]
+    cos, sin = np.cos(scene["facing"]), np.sin(scene["facing"])
+    return path @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]), scene["fps"]
+
+
+def test_a_song_and_a_motion_are_dropped_danced_and_taken_away(opened: Opened, tmp_path: Path) -> None:
+    page = opened.page
+    opened.drop({"evening.wav": song(), "walk.bvh": motion(tmp_path)})
+    page.wait_for_selector(".editor .track")
+    heard = np.array(opened.state()["beats"])
+    assert np.mean(np.abs(heard[:, None] - beat_times(BPM, SECONDS)).min(axis=1) < 0.07) > 0.8
+    page.get_by_role("button", name="Dance to this song").click()
+    page.fill("[name=seconds]", "10")
+    page.click("button:has-text('Dance'):not([aria-label])")
+    page.wait_for_selector(".dance .track")
+
+    dance = opened.state()["dance"]
+    page.keyboard.press("Space")
+    seen = page.evaluate(PLAYED)
+    page.keyboard.press("Space")
+    path, fps = poses(page, dance)
+    for one in seen:
+        assert abs(one["time"] - one["heard"]) <= 0.1
+        joints = np.reshape(one["joints"], (-1, 3))
+        times = np.arange(len(path)) / fps
+        near = np.abs(times - one["heard"]) < 0.5
+        shown = times[near][np.abs(path[near] - joints).max(axis=(1, 2)).argmin()]
+        assert abs(shown - one["heard"]) <= 0.1 + 1 / fps
+    assert seen[-1]["heard"] - seen[0]["heard"] > 0.3
+
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Export").click()
+    download.value.save_as(tmp_path / "dance.glb")
+    assert (tmp_path / "dance.glb").read_bytes()[:4] == b"glTF"
+    page.click("#shelf a[href^='#motion/']")
+    page.wait_for_selector(".motion .track")
+    assert re.search(r"\d+ stops? · \d+ keyposes?", page.inner_text(".motion .facts"))
+    assert opened.complaints == []
+
+
+def test_beats_are_put_right_and_kept(opened: Opened) -> None:
+    page = opened.page
+    page.click("#shelf a[href^='#song/']:has-text('evening')")
+    page.wait_for_selector(".editor .track")
+    before = opened.state()["beats"]
+    box = page.locator(".editor .track").bounding_box()
+    x = box["x"] + box["width"] * (before[2] + before[3]) / 2 / 12  # twelve seconds are shown at first
+    page.mouse.dblclick(x, box["y"] + 100)
+    assert len(opened.state()["beats"]) == len(before) + 1
+    page.mouse.move(x, box["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(x + 5, box["y"] + 100)
+    page.mouse.move(x + 8, box["y"] + 100)
+    page.mouse.up()
+    moved = opened.state()["beats"]
+    assert moved[3] == pytest.approx((before[2] + before[3]) / 2 + 8 * 12 / box["width"], abs=0.03)
+    page.wait_for_selector("text=your beats are kept")
+    kept = page.evaluate("fetch(`/api/songs/${location.hash.split('/')[1]}`).then(answer => answer.json())")
+    assert kept["edited"]
+    assert kept["beats"] == pytest.approx(moved, abs=0.001)
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+z")
+    assert opened.state()["beats"] == pytest.approx(before)
+    page.get_by_role("button", name="Back to what was heard").click()
+    page.keyboard.press("Enter")
+    page.wait_for_selector("text=as it was heard")
+    assert opened.state()["beats"] == pytest.approx(before, abs=0.001)
+
+
+def test_everything_has_a_name_is_reached_by_tab_and_can_be_read(opened: Opened) -> None:
+    page = opened.page
+    page.click("#shelf a[href^='#dance/']")
+    page.wait_for_selector(".dance .track")
+    page.wait_for_selector("#notices li", state="detached")  # their buttons go after some seconds
+    assert page.evaluate(UNNAMED) == []
+    places = set(page.evaluate(REACHABLE))
+    page.evaluate("document.getElementById('skip').focus()")
+    reached = {page.evaluate(FOCUSED)[0]}
+    for _ in range(len(places) - 1):
+        page.keyboard.press("Tab")
+        place, outlined = page.evaluate(FOCUSED)
+        assert outlined, f"no outline on {page.evaluate('document.activeElement.outerHTML')[:120]}"
+        reached.add(place)
+    assert places <= reached
+    for view in ("start", "order", "library/troupe", opened.state()["where"], "song/song"):
+        page.evaluate("view => { location.hash = view }", view)
+        page.wait_for_selector(f".view.{view.split('/')[0]} h2")
+        for _ in range(2):
+            assert page.evaluate(FAINT) == [], view
+            page.click("#dark")
+
+
+def test_dialogs_keep_the_focus_and_close_with_escape(opened: Opened) -> None:
+    page = opened.page
+    page.focus("#help")
+    page.keyboard.press("Enter")
+    for _ in range(4):
+        page.keyboard.press("Tab")
+        assert page.evaluate("document.activeElement === document.body || !!document.activeElement.closest('dialog')")
+    page.keyboard.press("Escape")
+    page.wait_for_selector("dialog", state="detached")
+    assert page.evaluate("document.activeElement.id") == "help"
+
+
+def test_a_phone_shows_it_without_scrolling_sideways(opened: Opened) -> None:
+    page = opened.page
+    page.set_viewport_size({"width": 360, "height": 740})
+    page.click("#shelf-button")
+    page.click("#shelf a[href^='#dance/']")
+    page.wait_for_selector(".dance .track")
+    assert not page.is_visible("#shelf")
+    wide = "Math.max(document.documentElement.scrollWidth, document.getElementById('work').scrollWidth)"
+    assert page.evaluate(wide) <= 360
