@@ -28,6 +28,17 @@ def new_figure(size: tuple[float, float]) -> Any:
         return Figure(figsize=size, layout="constrained")
 
 
+def figure_bytes(figure: Any, kind: str) -> bytes:
+    """A figure as the bytes of a PNG, SVG or PDF file (``kind`` is ``png``, ``svg`` or ``pdf``), without a date."""
+    import matplotlib as mpl
+
+    undated: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {"Software": None})
+    buffer = io.BytesIO()
+    with mpl.rc_context(_STYLE):
+        figure.savefig(buffer, format=kind, dpi=DPI, metadata=undated)
+    return buffer.getvalue()
+
+
 def save_figure(figure: Any, path: Path) -> None:
     """Write a figure as PNG, SVG or PDF, without a date.
 
@@ -36,13 +47,7 @@ def save_figure(figure: Any, path: Path) -> None:
     OnbeatError
         If the ending is none of these.
     """
-    import matplotlib as mpl
-
     kind = path.suffix.lower()
     if kind not in ENDINGS:
         raise OnbeatError(f"{path}: cannot draw {kind or 'a file without ending'}; use {', '.join(ENDINGS)}")
-    undated: dict[str, Any] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(kind, {"Software": None})
-    buffer = io.BytesIO()
-    with mpl.rc_context(_STYLE):
-        figure.savefig(buffer, format=kind[1:], dpi=DPI, metadata=undated)
-    write_atomically(path, buffer.getvalue())
+    write_atomically(path, figure_bytes(figure, kind[1:]))
