@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,8 @@ import pytest
 from onbeat.errors import MissingExtraError, OnbeatError
 from onbeat.motion import Motion, Skeleton
 from onbeat.music.song import Song
-from onbeat.viewer import video
+from onbeat.viewer import in_order, video
+from onbeat.viewer.flashes import Flashes
 from onbeat.viewer.strip import HEAD
 from onbeat.viewer.video import write_video
 
@@ -108,6 +110,42 @@ def test_the_same_dance_gives_the_same_bytes(tmp_path: Path) -> None:
     assert len(made) == 1
 
 
+def test_the_number_of_threads_does_not_change_the_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("av")
+    made = set()
+    flashes = Flashes.on(np.array([0.1, 0.3]), np.array([0.1]))
+    for threads in (1, 3):
+        monkeypatch.setattr(in_order, "usable_cores", lambda threads=threads: threads)
+        write_video(tmp_path / "a.mp4", pole(0.5), None, None, size=(160, 96), flashes=flashes)
+        made.add((tmp_path / "a.mp4").read_bytes())
+    assert len(made) == 1
+
+
+def test_the_floor_flashes_when_the_click_is_heard_to_a_picture(tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    beats, fps = np.array([0.517, 1.127, 1.741]), 25
+    clicks = sum(click_at(beat, 2.2) for beat in beats)
+    path = tmp_path / "flash.mp4"
+    write_video(path, pole(2.2), None, (clicks, RATE), fps=fps, size=SIZE, flashes=Flashes.on(beats, beats[1:2]))
+    with av.open(str(path)) as container:
+        pictures = [(float(f.pts * f.time_base), f.to_ndarray(format="rgb24")) for f in container.decode(video=0)]
+    with av.open(str(path)) as container:
+        blocks = list(container.decode(audio=0))
+    sound = np.concatenate([np.abs(block.to_ndarray()).max(0) for block in blocks])
+    first = float(blocks[0].pts * blocks[0].time_base)
+    # The pole stands still: what changes above the strip is the floor.
+    changes = np.array([np.abs(b[1].astype(int) - a[1])[:-9].mean() for a, b in itertools.pairwise(pictures)])
+    strength = []
+    for beat in beats:
+        about = np.arange(round((beat - 0.2) * fps), round((beat + 0.3) * fps))
+        jump = about[np.argmax(changes[about])]
+        near = np.arange(round((beat - first - 0.2) * RATE), round((beat - first + 0.2) * RATE))
+        heard_at = first + near[np.argmax(sound[near] > 0.5 * sound[near].max())] / RATE
+        assert abs(pictures[jump + 1][0] - heard_at) <= 1 / fps
+        strength.append(changes[jump])
+    assert strength[1] > 1.2 * max(strength[0], strength[2])  # the downbeat
+
+
 def test_an_interrupted_video_leaves_what_was_there(tmp_path: Path) -> None:
     pytest.importorskip("av")
     path = tmp_path / "dance.mp4"
@@ -136,5 +174,8 @@ def test_errors_are_one_clear_line(tmp_path: Path) -> None:
     pytest.importorskip("av")
     with pytest.raises(OnbeatError, match="161 x 90"):
         write_video(tmp_path / "dance.mp4", pole(), size=(161, 90))
+    for fps in (0.0, -1.0, float("nan"), 1e9):
+        with pytest.raises(OnbeatError, match="pictures a second cannot be made"):
+            write_video(tmp_path / "dance.mp4", pole(), size=SIZE, fps=fps)
     with pytest.raises(OnbeatError, match="cannot write"):
         write_video(tmp_path / "nowhere" / "dance.mp4", pole(), size=SIZE)

@@ -23,6 +23,7 @@ from onbeat._shapes import Float32
 from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
 from onbeat.cli.fetching import moves_path, song_path
 from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.cli.video_flags import NO_VIDEO, Film, VideoFlags
 from onbeat.cli.wish_flags import NO_WISH_FLAGS, WishFlags
 from onbeat.dance.make import LONGEST, Dance, make_dance
 from onbeat.errors import LibraryError, OnbeatError, PlanError
@@ -55,7 +56,7 @@ def dance_command(
     fps: float | None = None,
     warp: bool = True,
     mirror: bool = True,
-    video: Annotated[bool, cyclopts.Parameter(negative="")] = False,
+    video: VideoFlags = NO_VIDEO,
     json: Annotated[bool, cyclopts.Parameter(negative="")] = False,
     flags: CorrectionFlags = NO_FLAGS,
     wished: WishFlags = NO_WISH_FLAGS,
@@ -91,7 +92,7 @@ def dance_command(
     mirror
         Dance mirror images of the moves, too.
     video
-        Write dance.mp4 with sound (needs the extra ``video``).
+        A video, dance.mp4.
     json
         Print dance.json on stdout instead of a table.
     flags
@@ -102,8 +103,7 @@ def dance_command(
     _check(seconds, start, seed, fps)
     _check_output(output)
     wishes = wished.wishes()
-    if video:
-        _require_video()
+    film = video.film()
     song_file = None if song is None else song_path(song)
     clips = None if moves is None else moves_path(moves)
     if clips is not None and not clips.exists():
@@ -116,7 +116,7 @@ def dance_command(
             step=stages,
         )  # fmt: skip
         with _staged(output) as folder:
-            _write(folder, dance, library, sound, video, stages)
+            _write(folder, dance, library, sound, film, stages)
     _tell_left_out(library)
     if json:
         print(dance.document.to_json().decode(), end="")  # noqa: T201
@@ -124,7 +124,7 @@ def dance_command(
     screen = Console()
     screen.print(_table(dance, output))
     page = output / "dance.html"
-    after = Text(f"Look at it: open {page}\nThen try: {_next(song, moves, video)}")
+    after = Text(f"Look at it: open {page}\nThen try: {_next(song, moves, film is not None)}")
     screen.print(after, soft_wrap=True)
 
 
@@ -159,12 +159,6 @@ def _tell_left_out(library: MoveLibrary) -> None:
         lines[TOLD:] = [f"… and {more} more; `onbeat moves build` tells all"]
     for line in lines:
         print(f"onbeat: {line}", file=sys.stderr)  # noqa: T201
-
-
-def _require_video() -> None:
-    from onbeat.viewer.video import require_av
-
-    require_av()
 
 
 def _hear(
@@ -252,7 +246,7 @@ def _staged(output: Path) -> Generator[Path]:
                 output.rmdir()
 
 
-def _write(folder: Path, dance: Dance, library: MoveLibrary, sound: Sound, video: bool, stages: Stages) -> None:
+def _write(folder: Path, dance: Dance, library: MoveLibrary, sound: Sound, film: Film | None, stages: Stages) -> None:
     from onbeat.files import write_atomically
     from onbeat.formats.write import write_motion
     from onbeat.viewer.dance_page import write_dance_page
@@ -266,13 +260,19 @@ def _write(folder: Path, dance: Dance, library: MoveLibrary, sound: Sound, video
     write_atomically(folder / "dance.json", dance.document.to_json())
     write_atomically(folder / "song.json", dance.song.to_json())
     stages("writing", 1.0)
-    if video:
-        from onbeat.viewer.video import write_video
+    if film:
+        _film(folder / "dance.mp4", dance, sound, film, stages)
 
-        write_video(
-            folder / "dance.mp4", dance.motion, dance.song, sound, stops=dance.stops,
-            progress=lambda share: stages("filming", share),
-        )  # fmt: skip
+
+def _film(path: Path, dance: Dance, sound: Sound, film: Film, stages: Stages) -> None:
+    from onbeat.viewer.flashes import Flashes
+    from onbeat.viewer.video import write_video
+
+    flashes = Flashes.on(dance.song.beats, dance.song.downbeats) if film.flash else None
+    write_video(
+        path, dance.motion, dance.song, sound, fps=film.fps, size=film.size, stops=dance.stops, flashes=flashes,
+        progress=lambda share: stages("filming", share),
+    )  # fmt: skip
 
 
 def _keyposes(dance: Dance) -> Keyposes | None:

@@ -15,6 +15,7 @@ from rich.text import Text
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.cli.robot_output import write_robot
 from onbeat.cli.time_flags import NO_OWN, NO_TIME, OwnFlags, TimeFlags, When
+from onbeat.cli.video_flags import NO_VIDEO, VideoFlags
 from onbeat.errors import OnbeatError
 from onbeat.formats.read import read_motion
 from onbeat.retime.meeting import Meeting
@@ -67,7 +68,7 @@ def robot_command(
     own: OwnFlags = NO_OWN,
     feet: Literal["planted", "stepping"] = "planted",
     trial: TrialFlags = NOT_TRIED,
-    video: Flag = False,
+    video: VideoFlags = NO_VIDEO,
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])] = Path("robot"),
     json: Flag = False,
 ) -> None:
@@ -90,7 +91,7 @@ def robot_command(
     trial
         How the dance is tried.
     video
-        Write robot.mp4 (extra ``video``).
+        A video, robot.mp4.
     output
         A folder for everything.
     json
@@ -99,6 +100,7 @@ def robot_command(
     time.check()
     if trial.seed < 0:
         raise OnbeatError(f"--seed {trial.seed}: give 0 or more")
+    film = video.film()
     engine()  # what is missing is said before anything is done
     with warnings_as_lines(), Stages() as stages:
         model = read_robot(robot)
@@ -108,7 +110,7 @@ def robot_command(
         staged = stage(dance, model, when.warp, beats, keyposes, feet, until=when.until, progress=stages)
         tried = _tried(model, staged, trial, stages) if trial.simulate else None
         document = robot_document(model, staged, tried, feet)
-        written = write_robot(output, motion, dance, model, staged, tried, document, when.music, video, stages)
+        written = write_robot(output, motion, dance, model, staged, tried, document, when.music, film, stages)
     if json:
         Console(width=1 << 20, highlight=False).out(document.to_json().decode(), end="")
         return

@@ -11,6 +11,7 @@ import numpy as np
 from onbeat._shapes import Float32
 from onbeat.cli.progress import Stages
 from onbeat.cli.time_flags import Music
+from onbeat.cli.video_flags import Film
 from onbeat.files import make_folder, write_atomically
 from onbeat.formats.gmr import write_gmr
 from onbeat.formats.joint_table import write_joint_table
@@ -21,6 +22,7 @@ from onbeat.motion import Motion
 from onbeat.motion.hinges import hinge_angles
 from onbeat.motion.joint_angles import JointAngles
 from onbeat.music.audio import read_stereo
+from onbeat.music.song import Song
 from onbeat.robots.contacts import sole_corners
 from onbeat.robots.document import RobotDocument
 from onbeat.robots.hrpsys import write_hrpsys
@@ -32,6 +34,7 @@ from onbeat.robots.polygon import Polygons
 from onbeat.robots.state import configurations
 from onbeat.robots.trial import Trial
 from onbeat.viewer.figure import Figure
+from onbeat.viewer.flashes import Flashes
 from onbeat.viewer.robot_figure import Measured, write_robot_figure
 from onbeat.viewer.robot_page import write_robot_page
 from onbeat.viewer.robot_shape import ROBOT, robot_shape
@@ -49,7 +52,7 @@ def write_robot(
     trial: Trial | None,
     document: RobotDocument,
     music: Music | None,
-    video: bool,
+    film: Film | None,
     stages: Stages,
 ) -> list[Path]:
     """Write everything; the paths of what was written."""
@@ -76,12 +79,34 @@ def write_robot(
         fell_at=None if trial is None else trial.fell_at,
     )
     written += [report, drawn, page]
-    if video:
+    if film:
         written.append(folder / "robot.mp4")
-        dressed, shape = robot_shape(shown, robot)
-        figure = Figure.from_capsules(shape, ROBOT)
-        write_video(written[-1], dressed, None, sound, figure=figure, progress=lambda share: stages("video", share))
+        _film(written[-1], robot, staged, shown, song, sound, film, stages)
     return written
+
+
+def _film(
+    path: Path,
+    robot: Robot,
+    staged: Staged,
+    shown: Motion,
+    song: Song | None,
+    sound: tuple[Float32, int] | None,
+    film: Film,
+    stages: Stages,
+) -> None:
+    """The video: below it the beats that are danced to and the keyposes; the song's downbeats where there is one."""
+    dressed, shape = robot_shape(shown, robot)
+    beats, length = staged.beats - staged.start, shown.duration
+    downbeats = (np.zeros(0) if song is None else song.downbeats) - staged.start
+    none = np.zeros(2)
+    danced = Song(length, 0.0, 4, beats, downbeats, np.zeros(len(beats)), np.array([0.0, length]), none)
+    write_video(
+        path, dressed, danced, sound, fps=film.fps, size=film.size, figure=Figure.from_capsules(shape, ROBOT),
+        stops=staged.retimed.measures.keyposes - staged.start,
+        flashes=Flashes.on(beats, downbeats) if film.flash else None,
+        progress=lambda share: stages("video", share),
+    )  # fmt: skip
 
 
 def _exports(folder: Path, name: str, robot: Robot, staged: Staged) -> list[Path]:

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 
 from onbeat._shapes import Array, Float32, Ints, Positions
 
-AX, AY, AZ, NX, NY, NZ, LENGTH, RADIUS, TAPER, SQUARE, SIDE, END_A, END_B, RADIUS_B = range(14)
-"""Columns of a cone: a, n, L, ra, k, c², the side's constant term, those of both spheres, rb."""
+AX, AY, AZ, NX, NY, NZ, LENGTH, RADIUS, TAPER, SQUARE, SIDE, END_A, END_B, RADIUS_B, SLOPE = range(15)
+"""Columns of a cone: a, n, L, ra, k, c², the side's constant term, those of both spheres, rb, k / c."""
 NEAR = 0.05
 """Metres: nothing nearer to the camera than this is drawn."""
 
 
 def cones_from(ends: Positions, radii: Array) -> Array:
-    """(N, 14) cones from both ends (N, 2, 3) in the camera's frame and radii (N, 2).
+    """(N, 15) cones from both ends (N, 2, 3) in the camera's frame and radii (N, 2).
 
     Where one end's sphere holds the other's, the larger sphere is all there is.
     """
@@ -46,10 +46,11 @@ def cones_from(ends: Positions, radii: Array) -> Array:
     end_a = (a * a).sum(1) - ra**2
     side = square * end_a - start**2
     columns = (a, axis, length[:, None], ra[:, None], taper[:, None], square[:, None], side[:, None])
-    return np.hstack((*columns, end_a[:, None], ((b * b).sum(1) - rb**2)[:, None], rb[:, None]))
+    end_b, slope = (b * b).sum(1) - rb**2, taper / np.sqrt(np.maximum(square, 1e-12))
+    return np.hstack((*columns, end_a[:, None], end_b[:, None], rb[:, None], slope[:, None]))
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def hit(cones: Array, i: int, x: float, y: float) -> float:
     """Depth at which the ray (x, y, 1) enters cone ``i``, or infinity."""
     nx, ny, nz, taper = cones[i, NX], cones[i, NY], cones[i, NZ], cones[i, TAPER]
@@ -86,23 +87,28 @@ def hit(cones: Array, i: int, x: float, y: float) -> float:
     return best
 
 
-@numba.njit(cache=True)
-def outward(cones: Array, i: int, px: float, py: float, pz: float) -> tuple[float, float, float, float]:
-    """Distance from a point to the skin of cone ``i``, and the outward unit normal there."""
+@numba.njit(cache=True, nogil=True)
+def off_axis(cones: Array, i: int, px: float, py: float, pz: float) -> tuple[float, float, float, float]:
+    """From the middle of the nearest sphere of cone ``i`` to a point, and that sphere's radius."""
     wx, wy, wz = px - cones[i, AX], py - cones[i, AY], pz - cones[i, AZ]
     axial = wx * cones[i, NX] + wy * cones[i, NY] + wz * cones[i, NZ]
     square = wx * wx + wy * wy + wz * wz - axial * axial
     # The nearest sphere stands further along by the taper's slope times the distance from the axis.
-    along = axial - cones[i, TAPER] * np.sqrt(max(square, 0.0) / cones[i, SQUARE])
+    along = axial - cones[i, SLOPE] * np.sqrt(max(square, 0.0))
     along = min(max(along, 0.0), cones[i, LENGTH])
-    wx -= along * cones[i, NX]
-    wy -= along * cones[i, NY]
-    wz -= along * cones[i, NZ]
+    radius = cones[i, RADIUS] - cones[i, TAPER] * along
+    return wx - along * cones[i, NX], wy - along * cones[i, NY], wz - along * cones[i, NZ], radius
+
+
+@numba.njit(cache=True, nogil=True)
+def outward(cones: Array, i: int, px: float, py: float, pz: float) -> tuple[float, float, float, float]:
+    """Distance from a point to the skin of cone ``i``, and the outward unit normal there."""
+    wx, wy, wz, radius = off_axis(cones, i, px, py, pz)
     long = np.sqrt(wx * wx + wy * wy + wz * wz) + 1e-12
-    return long - (cones[i, RADIUS] - cones[i, TAPER] * along), wx / long, wy / long, wz / long
+    return long - radius, wx / long, wy / long, wz / long
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def gap(cones: Array, i: int, px: float, py: float, pz: float, most: float) -> float:
     """About the distance from a point to the skin of cone ``i`` (without the taper's slant), at most ``most``."""
     wx, wy, wz = px - cones[i, AX], py - cones[i, AY], pz - cones[i, AZ]
@@ -115,7 +121,7 @@ def gap(cones: Array, i: int, px: float, py: float, pz: float, most: float) -> f
     return most if square >= (radius + most) ** 2 else np.sqrt(square) - radius
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: int) -> Ints:
     """(N, 4) first and past-the-last column and row that each cone may cover; empty where it is not seen."""
     boxes = np.zeros((len(cones), 4), np.int64)
@@ -147,7 +153,7 @@ def spans(cones: Array, focal: float, cx: float, cy: float, width: int, height: 
     return boxes
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def cast(
     cones: Array,
     boxes: Ints,
@@ -167,9 +173,14 @@ def cast(
     for i in range(len(cones)):
         for row in range((boxes[i, 2] - origin[1]) * fine, (boxes[i, 3] - origin[1]) * fine):
             y = (cy - (origin[1] + (row + 0.5) / fine)) / focal
+            met = False
             for column in range((boxes[i, 0] - origin[0]) * fine, (boxes[i, 1] - origin[0]) * fine):
                 x = ((origin[0] + (column + 0.5) / fine) - cx) / focal
                 t = hit(cones, i, x, y)
+                if t < np.inf:
+                    met = True
+                elif met:  # A cone bulges everywhere: once a row has left it, it does not come back.
+                    break
                 if NEAR < t < depth[row, column]:
                     depth[row, column] = t
                     nearest[row, column] = i

@@ -9,7 +9,7 @@ import numba
 import numpy as np
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def yuv420(picture: np.ndarray) -> np.ndarray:
     """(H * 3 / 2, W) uint8 planes Y, U, V one below the other, of a picture (H, W, 3) uint8 of even size.
 

@@ -1,8 +1,8 @@
 """A small software renderer of a dancer: the same input gives the same bytes on every machine, without a display.
 
 Rays meet tapering capsules (``cones.py``) inside each capsule's box on the screen; the nearest wins. Where capsules
-meet, their normals run into each other, so that the body looks like one skin. The floor and the shadow on it are
-in ``stage.py``.
+meet, their normals run into each other, so that the body looks like one skin. The floor is in ``floor.py``, the
+shadow on it in ``shadow.py``.
 """
 
 from __future__ import annotations
@@ -13,12 +13,32 @@ from numpy.typing import NDArray
 
 from onbeat._shapes import Array, Bools, Float32, Ints, Positions
 from onbeat.viewer.camera import Camera, Size
-from onbeat.viewer.cones import AX, AY, AZ, LENGTH, NX, NY, NZ, RADIUS, RADIUS_B, cast, cones_from, gap, outward, spans
+from onbeat.viewer.cones import (
+    AX,
+    AY,
+    AZ,
+    LENGTH,
+    NX,
+    NY,
+    NZ,
+    RADIUS,
+    RADIUS_B,
+    cast,
+    cones_from,
+    gap,
+    off_axis,
+    outward,
+    spans,
+)
 from onbeat.viewer.figure import Figure
-from onbeat.viewer.stage import TO_LINEAR, TO_SRGB, Stage, linear, paint_backdrop, shadow_map
+from onbeat.viewer.floor import paint_backdrop
+from onbeat.viewer.shadow import shadow_map
+from onbeat.viewer.stage import TO_LINEAR, TO_SRGB, Stage, linear
 
 BLEND, HOLLOW, SHADE = 0.05, 0.09, 0.1
 """Metres: how far normals run together, and how far off the skin ambient and key light look for what hides them."""
+PATCH = 0.015
+"""Metres: as far as this from a point of the skin, the same cones are looked at as there."""
 
 
 def render_frame(
@@ -60,7 +80,7 @@ def render_frame(
     return picture
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _neighbours(cones: Array, reach: float) -> tuple[Ints, Ints]:
     """(N, N) for each cone the cones that come within ``reach`` metres of its skin, and (N,) how many."""
     count = len(cones)
@@ -82,11 +102,12 @@ def _neighbours(cones: Array, reach: float) -> tuple[Ints, Ints]:
     return found, many
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _near(cones: Array, among: Ints, px: float, py: float, pz: float, reach: float, found: Ints) -> int:
     """Put the numbers of all cones whose ball lies within ``reach`` metres of a point in ``found``; how many."""
     count = 0
-    for i in among:
+    for k in range(len(among)):
+        i = among[k]
         half = 0.5 * cones[i, LENGTH]
         x = px - cones[i, AX] - half * cones[i, NX]
         y = py - cones[i, AY] - half * cones[i, NY]
@@ -97,20 +118,25 @@ def _near(cones: Array, among: Ints, px: float, py: float, pz: float, reach: flo
     return count
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _skin(
-    cones: Array, adjacent: Bools, near: Ints, which: int, px: float, py: float, pz: float
+    cones: Array, adjacent: Bools, near: Ints, count: int, which: int, px: float, py: float, pz: float
 ) -> tuple[float, float, float]:
     """The normal at a point of cone ``which``, run together with those of its neighbours within a few centimetres."""
     sx, sy, sz = 0.0, 0.0, 0.0
-    for i in near:
-        if adjacent[which, i] and gap(cones, i, px, py, pz, 1.2 * BLEND) < 1.2 * BLEND:
-            off, nx, ny, nz = outward(cones, i, px, py, pz)
-            if off < BLEND:
-                weight = (1.0 - max(off, 0.0) / BLEND) ** 2
-                sx += weight * nx
-                sy += weight * ny
-                sz += weight * nz
+    for k in range(count):
+        i = near[k]
+        if not adjacent[which, i]:
+            continue
+        wx, wy, wz, radius = off_axis(cones, i, px, py, pz)
+        square = wx * wx + wy * wy + wz * wz
+        if square < (radius + BLEND) * (radius + BLEND):
+            long = np.sqrt(square) + 1e-12
+            weight = 1.0 - max(long - radius, 0.0) * (1.0 / BLEND)
+            weight *= weight / long
+            sx += weight * wx
+            sy += weight * wy
+            sz += weight * wz
     long = np.sqrt(sx * sx + sy * sy + sz * sz)
     if long < 1e-6:
         _, sx, sy, sz = outward(cones, which, px, py, pz)
@@ -118,21 +144,21 @@ def _skin(
     return sx / long, sy / long, sz / long
 
 
-@numba.njit(cache=True)
-def _open(cones: Array, near: Ints, px: float, py: float, pz: float, reach: float) -> float:
+@numba.njit(cache=True, nogil=True)
+def _open(cones: Array, near: Ints, count: int, px: float, py: float, pz: float, reach: float) -> float:
     """0…1: how far a point ``reach`` metres off the skin is from all of the body; what is left of the light there."""
     nearest = reach
-    for i in near:
-        nearest = gap(cones, i, px, py, pz, nearest)
+    for k in range(count):
+        nearest = gap(cones, near[k], px, py, pz, nearest)
     return max(nearest, 0.0) / reach
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _light_on(
     cones: Array,
     adjacent: Bools,
-    among: Ints,
-    found: Ints,
+    near: Ints,
+    count: int,
     which: int,
     px: float,
     py: float,
@@ -141,18 +167,19 @@ def _light_on(
     to: Array,
 ) -> tuple[float, float, float]:
     """What a point of the body takes of the key light, of the sky and floor around, and of the rim's glow."""
-    near = found[: _near(cones, among, px, py, pz, SHADE + SHADE, found)]
-    nx, ny, nz = _skin(cones, adjacent, near, which, px, py, pz)
+    nx, ny, nz = _skin(cones, adjacent, near, count, which, px, py, pz)
     up = axes[0, 2] * nx + axes[1, 2] * ny + axes[2, 2] * nz
     key = max((nx * to[0] + ny * to[1] + nz * to[2] + 0.15) / 1.15, 0.0)
-    free = 0.35 + 0.65 * _open(cones, near, px + HOLLOW * nx, py + HOLLOW * ny, pz + HOLLOW * nz, HOLLOW)
+    free = 0.35 + 0.65 * _open(cones, near, count, px + HOLLOW * nx, py + HOLLOW * ny, pz + HOLLOW * nz, HOLLOW)
     if key > 0.0:
-        key *= 0.25 + 0.75 * _open(cones, near, px + SHADE * to[0], py + SHADE * to[1], pz + SHADE * to[2], SHADE)
+        key *= 0.25 + 0.75 * _open(
+            cones, near, count, px + SHADE * to[0], py + SHADE * to[1], pz + SHADE * to[2], SHADE
+        )
     facing = max(-(nx * px + ny * py + nz * pz) / np.sqrt(px * px + py * py + pz * pz), 0.0)
     return key, (0.72 + 0.5 * up) * free, (1.0 - facing) ** 4 * free
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _shade(
     picture: np.ndarray,
     depth: Float32,
@@ -172,8 +199,9 @@ def _shade(
 ) -> None:
     """Colour the figure's pixels; a pixel that several capsules share is their mean, by the points each has."""
     share = 1.0 / (fine * fine)
-    found = np.empty(len(cones), np.int64)
+    near = np.empty(len(cones) + 1, np.int64)
     among, many = _neighbours(cones, SHADE + SHADE)
+    count, patch, px, py, pz = 0, -1, 0.0, 0.0, 0.0
     down, across = np.repeat(np.arange(fine), fine), np.arange(fine * fine) % fine
     for row in range(depth.shape[0] // fine):
         for column in range(depth.shape[1] // fine):
@@ -189,8 +217,12 @@ def _shade(
                     x = (origin[0] + (j + 0.5) / fine - cx) / focal
                     y = (cy - origin[1] - (i + 0.5) / fine) / focal
                     z = float(depth[i, j])
-                    close = among[which, : many[which]]
-                    key, around, rim = _light_on(cones, adjacent, close, found, which, x * z, y * z, z, axes, to)
+                    x, y = x * z, y * z
+                    if which != patch or (x - px) ** 2 + (y - py) ** 2 + (z - pz) ** 2 > PATCH * PATCH:
+                        patch, px, py, pz = which, x, y, z
+                        close = among[which, : many[which]]
+                        count = _near(cones, close, x, y, z, SHADE + SHADE + PATCH, near)
+                    key, around, rim = _light_on(cones, adjacent, near, count, which, x, y, z, axes, to)
                     last = which
                     r = colours[which, 0] * (0.86 * key + 0.46 * around + 0.3 * rim)
                     g = colours[which, 1] * (0.82 * key + 0.49 * around + 0.3 * rim)

@@ -49,6 +49,11 @@ class Strip:
         pictures = [_draw(song, level, stops, duration, height, width, ink) for ink in (INK, PLAYED)]
         return cls(pictures[0], pictures[1], duration)
 
+    @property
+    def height(self) -> int:
+        """Pixels."""
+        return self.coming.shape[0]
+
     def draw(self, picture: np.ndarray, time: float) -> None:
         """Put the strip at the foot of a picture, the play head at ``time`` seconds."""
         height, width = self.coming.shape[:2]
@@ -70,7 +75,10 @@ def _draw(
         for times, colour, long in ((song.beats, BEAT, 0.42), (song.downbeats, DOWNBEAT, 0.47)):
             reach = max(int(long * height), 1)
             _ticks(picture, times, duration, int(middle) - reach, int(middle) + reach + 1, colour, 1)
-    if level is not None:
+    thin = max(1, height // 40)
+    if level is None:
+        picture[int(middle) - thin // 2 :][:thin] = ink
+    else:
         off = np.abs(np.arange(height) - middle)[:, None]
         cover = np.clip(level * half - off + 0.8, 0.0, 1.0)[..., None]
         picture[:] = np.round(picture * (1 - cover) + ink * cover).astype(np.uint8)

@@ -6,7 +6,7 @@ import contextlib
 import importlib
 import os
 import tempfile
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -17,16 +17,20 @@ from onbeat._shapes import Float32, Times
 from onbeat.errors import MissingExtraError, OnbeatError
 from onbeat.motion import Motion
 from onbeat.music.song import Song
-from onbeat.viewer.camera import Size, follow
-from onbeat.viewer.figure import Figure, ground_height
-from onbeat.viewer.planes import yuv420
-from onbeat.viewer.raster import render_frame
+from onbeat.viewer.camera import Size
+from onbeat.viewer.figure import Figure
+from onbeat.viewer.flashes import Flashes
+from onbeat.viewer.in_order import in_order
+from onbeat.viewer.scene import Scene
 from onbeat.viewer.sound import SoundTrack
-from onbeat.viewer.stage import Stage
 from onbeat.viewer.strip import Strip, loudness
 
 STRIP = 0.1
 """The strip's part of the picture's height."""
+SMALLEST, LARGEST = 16, 4096
+"""Pixels of a side."""
+FASTEST = 240.0
+"""Pictures a second."""
 
 
 def write_video(
@@ -39,22 +43,25 @@ def write_video(
     size: Size = (1280, 720),
     stops: Times | None = None,
     figure: Figure | None = None,
+    flashes: Flashes | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> None:
     """Write a dance as an mp4 that plays everywhere (yuv420p, index first), exactly as long as the dance.
 
     Frame ``i`` shows the dance at ``i / fps`` seconds and lasts until the next one. Sound begins with the first
-    frame; where it is shorter than the dance, silence follows. Memory does not grow with the length.
+    frame; where it is shorter than the dance, silence follows. Pictures are made by several threads while others are
+    coded; the bytes are the same with any number. No more than a few pictures are in memory.
 
     Parameters
     ----------
     path : the file; an older one is replaced once the new one is whole.
     motion, song : what is danced, and what its strip shows.
     audio : ((N, channels) samples -1…1, samples a second), or None for a silent film.
-    fps : frames a second.
-    size : width and height in pixels; even numbers.
+    fps : frames a second, above 0 and at most 240.
+    size : width and height in pixels; even numbers from 16 to 4096.
     stops : seconds at which the dancer stops, marked in the strip.
     figure : what the body looks like; as its joints' roles tell without it.
+    flashes : rings that run over the floor on beats.
     progress : called with the part that is done, 0…1.
 
     Raises
@@ -62,15 +69,28 @@ def write_video(
     MissingExtraError
         If PyAV is not installed.
     OnbeatError
-        If the file cannot be written, or the size is odd.
+        If the file cannot be written, or the size is odd, or size or rate are out of bounds.
     """
     av = require_av()
-    if size[0] % 2 or size[1] % 2 or min(size) < 16:
-        raise OnbeatError(f"a video of {size[0]} x {size[1]} pixels cannot be coded; give even numbers from 16 on")
+    check_film(size, fps)
     with _whole_file(Path(path)) as temporary:
         looks = Figure.of(motion.skeleton) if figure is None else figure
+        count = max(1, round(motion.duration * fps))
+        level = None if audio is None else loudness(audio[0], size[0], count / fps, audio[1])
         marked = np.zeros(0) if stops is None else stops
-        _encode(av, temporary, motion, looks, song, audio, fps, size, marked, progress)
+        strip = Strip.of(song, level, marked, count / fps, max(4, int(size[1] * STRIP)), size[0])
+        scene = Scene.of(motion, looks, strip, fps, size, flashes)
+        _encode(av, temporary, scene, count, fps, audio, progress)
+
+
+def check_film(size: Size, fps: float) -> None:
+    """Refuse with an ``OnbeatError`` what cannot be filmed: sizes and rates as :func:`write_video` has them."""
+    if size[0] % 2 or size[1] % 2 or min(size) < SMALLEST or max(size) > LARGEST:
+        raise OnbeatError(
+            f"a video of {size[0]} x {size[1]} pixels cannot be coded; give even numbers from {SMALLEST} to {LARGEST}"
+        )
+    if not 0 < fps <= FASTEST:
+        raise OnbeatError(f"a video of {fps:g} pictures a second cannot be made; give more than 0, {FASTEST:g} at most")
 
 
 def require_av() -> Any:
@@ -104,29 +124,24 @@ def _whole_file(path: Path) -> Generator[Path]:
 def _encode(
     av: Any,
     path: Path,
-    motion: Motion,
-    figure: Figure,
-    song: Song | None,
-    audio: tuple[Float32, int] | None,
+    scene: Scene,
+    count: int,
     fps: float,
-    size: Size,
-    stops: Times,
+    audio: tuple[Float32, int] | None,
     progress: Callable[[float], None] | None,
 ) -> None:
-    count = max(1, round(motion.duration * fps))
     with av.open(str(path), "w", format="mp4", options={"movflags": "+faststart", "fflags": "+bitexact"}) as container:
-        video = _video_stream(container, fps, size)
+        video = _video_stream(container, fps, scene.size)
         sound = None if audio is None else SoundTrack(av, container, audio[0], audio[1], count / fps)
-        level = None if audio is None else loudness(audio[0], size[0], count / fps, audio[1])
-        strip = Strip.of(song, level, stops, count / fps, max(4, int(size[1] * STRIP)), size[0])
-        for number, picture in enumerate(pictures(motion, figure, fps, size, strip)):
-            frame = av.VideoFrame.from_ndarray(yuv420(picture), format="yuv420p")
-            frame.pts = number
-            container.mux(video.encode(frame))
-            if sound is not None:
-                sound.write_until((number + 1) / fps)
-            if progress is not None:
-                progress((number + 1) / count)
+        with contextlib.closing(in_order(count, scene.planes)) as made:
+            for number, planes in enumerate(made):
+                frame = av.VideoFrame.from_ndarray(planes, format="yuv420p")
+                frame.pts = number
+                container.mux(video.encode(frame))
+                if sound is not None:
+                    sound.write_until((number + 1) / fps)
+                if progress is not None:
+                    progress((number + 1) / count)
         container.mux(video.encode(None))
         if sound is not None:
             sound.close()
@@ -145,17 +160,3 @@ def _video_stream(container: Any, fps: float, size: Size) -> Any:
     coded.colorspace = coded.color_primaries = coded.color_trc = coded.color_range = 1
     stream.time_base = stream.codec_context.time_base = 1 / rate
     return stream
-
-
-def pictures(motion: Motion, figure: Figure, fps: float, size: Size, strip: Strip) -> Iterator[np.ndarray]:
-    """The film's pictures (H, W, 3), one by one."""
-    ground = ground_height(figure, motion)
-    count = max(1, round(motion.duration * fps))
-    poses = motion.at(np.arange(count) / fps).replace(fps=fps)
-    # The strip takes the lower part: the dancer stands in the middle of what is left.
-    path = follow(poses, figure, ground, size=size, shift=STRIP / 2)
-    stage = Stage.lit_from(path.azimuth, ground)
-    for number in range(count):
-        picture = render_frame(poses.positions[number], figure, path[number], size, stage)
-        strip.draw(picture, number / fps)
-        yield picture
