@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import html
 import importlib.util
 import json
+import os
 import re
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
 import pytest
+from PIL import Image
 
 from onbeat.cli.commands import COMMANDS, app
 from onbeat.dance.document import DanceDocument
@@ -40,7 +45,7 @@ def script(name: str) -> ModuleType:
 
 def run(code: list[str], folder: Path) -> str:
     """Run Python with arguments in a folder; what it said."""
-    done = subprocess.run([sys.executable, *code], cwd=folder, capture_output=True, text=True, timeout=300)
+    done = subprocess.run([sys.executable, *code], cwd=folder, capture_output=True, text=True, timeout=900)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -132,16 +137,17 @@ def test_documents_keep_to_their_schema():
         assert set(schema["required"]) <= set(written) <= set(schema["properties"])
 
 
-def test_the_picture_of_the_readme_is_small_and_can_be_made_again():
-    make = script("make_pictures")
-    assert (make.FOLDER / "troupe.png").stat().st_size < 300_000
-    assert "docs/pictures/troupe.png" in README
-    joints, motion = [], make.perform(make.DANCERS[0], [make.FIGURES[0]], 1.0, 1, np.random.default_rng(0)).motion
-    bodies = [make.dressed(motion, shirt) for shirt in make.SHIRTS[:2]]
-    joints = [len(motion.skeleton)] * 2
-    both = make.company(bodies, joints)
-    assert both.joints.max() == joints[0] + bodies[0].joints.max()
-    assert not both.adjacent[0, len(bodies[0].joints)]
+def test_the_moving_picture_of_the_readme_is_small_and_can_be_made_again():
+    make = script("moving_picture")
+    path = ROOT / "docs" / "pictures" / "dance.webp"
+    assert path.stat().st_size <= make.LARGEST
+    assert "docs/pictures/dance.webp" in README
+    with Image.open(path) as moving:
+        assert (moving.size, moving.n_frames > 60) == ((make.SIZE[0], make.SIZE[1] + make.FOOT), True)
+    places, figure = make.troupe_at(np.array([-0.5, make.END]))
+    assert np.abs(places[0] - places[1]).max() < 1e-9, "the last picture goes over into the first"
+    assert figure.joints.max() == places.shape[1] - 1
+    assert not figure.adjacent[0, -1]
 
 
 def test_the_gallery_lists_its_programs():
@@ -149,9 +155,65 @@ def test_the_gallery_lists_its_programs():
     assert re.findall(r"\]\((\d\d_\w+\.py)\)", page) == [path.name for path in GALLERY]
 
 
+class Site(NamedTuple):
+    """The site as it was built, and what was made on the way."""
+
+    pages: Path
+    work: Path
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Site:
+    """Built once: it runs the gallery and the notebook, and any warning is an error."""
+    folder = tmp_path_factory.mktemp("docs")
+    built = Site(folder / "site", folder / "work")
+    run([str(ROOT / "docs" / "build_site.py"), "-o", str(built.pages), "--work", str(built.work)], folder)
+    return built
+
+
+def text_of(page: Path) -> str:
+    """What a reader sees of a page."""
+    return html.unescape(re.sub(r"<[^>]+>", "", page.read_text(encoding="utf-8")))
+
+
 @pytest.mark.parametrize("program", GALLERY, ids=lambda path: path.stem)
-def test_a_program_of_the_gallery_runs(program: Path, tmp_path: Path):
-    assert run([str(program), "made"], tmp_path).strip()
+def test_a_program_of_the_gallery_runs_and_its_page_shows_what_it_makes(program: Path, site: Site):
+    said = (site.work / "gallery" / program.stem / "said.txt").read_text(encoding="utf-8")
+    assert said.strip()
+    assert said.strip() in text_of(site.pages / "gallery" / f"{program.stem}.html")
+    (picture,) = (site.pages / "_images").glob(f"{program.stem}*.webp")
+    assert 2_000 < picture.stat().st_size <= 60_000
+
+
+def test_every_page_is_on_the_site(site: Site):
+    written = {path.stem for path in (ROOT / "docs").glob("*.md")} | {"architecture", "conventions", "training"}
+    assert written <= {path.stem for path in site.pages.glob("*.html")}
+    front = (site.pages / "index.html").read_text(encoding="utf-8")
+    assert all(f'href="{name}.html"' in front for name in written - {"index"})
+    assert "make_dance(" in text_of(site.pages / "api" / "dance.html")
+
+
+def test_the_site_asks_nothing_of_a_network(site: Site):
+    asking = re.compile(r"<(?:script|link|img|iframe)\b[^>]*(?:src|href)=[\"'](?:https?:)?//")
+    assert not [page.name for page in site.pages.rglob("*.html") if asking.search(page.read_text(encoding="utf-8"))]
+
+
+def test_the_notebook_runs_from_top_to_bottom_and_is_kept_without_outputs(site: Site):
+    notebook = json.loads((ROOT / "docs" / "notebook.ipynb").read_text(encoding="utf-8"))
+    assert notebook["nbformat"] == 4
+    assert not [cell["id"] for cell in notebook["cells"] if cell.get("outputs") or cell.get("execution_count")]
+    assert {"song.wav", "dance.bvh", "dance.glb", "dance.html", "faster.bvh"} <= set(os.listdir(site.work / "notebook"))
+    assert "channels over their limits: 0" in text_of(site.pages / "notebook.html")
+
+
+@pytest.mark.parametrize("page", ["extend.md", "metrics.md"])
+def test_examples_print_what_is_written_below_them(page: str, tmp_path: Path):
+    blocks = BLOCK.findall((ROOT / "docs" / page).read_text(encoding="utf-8"))
+    tried = [(code, said) for (a, code), (b, said) in pairwise(blocks) if (a, b) == ("python", "text")]
+    assert tried
+    # Each in its own names, all in one process, so that onbeat is imported once.
+    program = "import sys\nfor code in sys.argv[1:]:\n    exec(code, {'__name__': '__main__'})"
+    assert run(["-c", program, *(code for code, _ in tried)], tmp_path) == "".join(said for _, said in tried)
 
 
 def test_the_citation_names_this_version():

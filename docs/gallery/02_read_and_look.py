@@ -27,4 +27,4 @@ print(f"the right hand at 1.0 s: {np.round(hands[0], 2)} m")
 
 onbeat.write_motion(motion, folder / "folk_dance.glb")
 write_page(folder / "folk_dance.html", motion)
-write_png(folder / "folk_dance.png", contact_sheet(motion, danced.keyposes[:6], columns=3, size=(200, 200)))
+write_png(folder / "picture.png", contact_sheet(motion, danced.keyposes[:6], columns=3, size=(280, 280)))

@@ -7,6 +7,7 @@ from onbeat.examples import embedded_song
 from onbeat.files import make_folder, write_atomically
 from onbeat.moves.embedded import embedded_library
 from onbeat.viewer.dance_page import write_dance_page
+from onbeat.viewer.sheet import contact_sheet, write_png
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
@@ -21,3 +22,6 @@ for move in dance.document.moves:
 onbeat.write_motion(dance.motion, folder / "dance.bvh")
 write_atomically(folder / "dance.json", dance.document.to_json())
 write_dance_page(folder / "dance.html", dance, library, (samples, rate))
+
+# What it does on every second beat.
+write_png(folder / "picture.png", contact_sheet(dance.motion, song.beats[1:13:2], columns=3, size=(280, 280)))

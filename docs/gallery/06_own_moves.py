@@ -2,10 +2,14 @@
 
 import sys
 
+import numpy as np
+
 import onbeat
 from onbeat.examples import embedded_motions, embedded_song
 from onbeat.files import make_folder
 from onbeat.moves.build import build_library
+from onbeat.moves.graph import GRID
+from onbeat.viewer.figures import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
@@ -23,3 +27,14 @@ song, _, _ = embedded_song(seconds=8.0)
 dance = onbeat.make_dance(song, library)
 print(f"{dance.motion.duration:.2f} s of dance with {len(dance.document.joins)} joins")
 print(f"from {library.seconds:.0f} s of motion")
+
+# The motion graph: from which second of the library the dance can go on at which other one.
+graph = library.graph
+figure = new_figure((4.6, 4.0))
+axes = figure.subplots()
+seconds = np.arange(len(graph) // GRID + 2)
+joins, _, _ = np.histogram2d(graph.targets / GRID, graph.sources / GRID, [seconds, seconds])
+shown = axes.pcolormesh(seconds, seconds, np.where(joins, joins, np.nan), cmap="viridis_r")
+figure.colorbar(shown, label="joins")
+axes.set(xlabel="left at this second of the library", ylabel="entered at this one", aspect="equal")
+save_figure(figure, folder / "picture.png")

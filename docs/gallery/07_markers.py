@@ -11,6 +11,7 @@ from onbeat.examples.performer import perform
 from onbeat.files import make_folder
 from onbeat.formats.report import describe
 from onbeat.motion.joint_markers import joint_markers
+from onbeat.viewer.figures import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
@@ -28,3 +29,15 @@ for take in report.markers:
     print(f"{take.gaps} gap; the fitted body is {take.residual_mm:.1f} mm off")
 print(*report.problems, sep="\n")
 onbeat.write_motion(body, folder / "take.glb")
+
+# The hand that was hidden: as it was danced, as the cameras saw it, and where the fitted body has it.
+hand = markers.index("LeftHand")
+fitted = body.positions[:, onbeat.Body.of(body.skeleton)["left_wrist"], 2]
+figure = new_figure((7.0, 2.6))
+axes = figure.subplots()
+axes.plot(markers.times, markers.positions[:, hand, 2], color="0.8", linewidth=6, label="danced")
+axes.plot(body.times, fitted, "tab:red", linestyle="--", label="fitted")
+axes.plot(markers.times, seen[:, hand, 2], "tab:blue", label="seen")
+axes.set(xlabel="time [s]", ylabel="height of the left hand [m]", xlim=(0, 5))
+figure.legend(loc="outside upper center", ncols=3, frameon=False)
+save_figure(figure, folder / "picture.png")

@@ -12,6 +12,7 @@ from onbeat.keyposes.extract import find_keyposes
 from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.keyposes.segments import segments
 from onbeat.viewer.keypose_sheet import write_keypose_sheet
+from onbeat.viewer.sheet import contact_sheet, write_png
 
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")
 made.mkdir(exist_ok=True)
@@ -31,3 +32,4 @@ longest = max(segments(found), key=lambda part: part.duration)
 print(f"the longest segment goes from {longest.start:.2f} to {longest.end:.2f} s")
 
 print(f"a sheet to print: {write_keypose_sheet(made / 'keyposes.png', found, danced.motion, cycle=12)[0]}")
+write_png(made / "picture.png", contact_sheet(danced.motion, found.times[:8], columns=4, size=(240, 240)))

@@ -36,5 +36,5 @@ for found in results:
 print(f"{danced.motion.duration:.2f} s became {results[0].dance.duration:.2f} s; every beat is where the music has it")
 write_motion(results[0].dance, made / "faster.bvh")
 write_retime_page(made / "retimed.html", results[0], danced.motion)
-write_retime_figure(made / "retimed.png", results)
+write_retime_figure(made / "picture.png", results)
 write_limits_figure(made / "limits.png", results)

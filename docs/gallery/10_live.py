@@ -16,6 +16,7 @@ from onbeat.live.protocol import BeatSaid, Status
 from onbeat.live.pulse import Pulse
 from onbeat.live.session import Session
 from onbeat.motion import Motion
+from onbeat.viewer.figures import new_figure, save_figure
 
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")
 made.mkdir(exist_ok=True)
@@ -40,3 +41,13 @@ print(f"{len(said)} beats heard as they happened, {1000 * np.median(late):.0f} m
 rotations, roots = np.stack([pose.rotations for pose in poses]), np.stack([pose.root for pose in poses])
 danced = Motion(cast.dancer.skeleton, rotations, roots, 100.0, "danced live")
 onbeat.write_motion(danced, made / "live.bvh")
+
+# How far off each beat was said: few people hear what is inside the grey band.
+heard = np.array([second for second in said if second < song.beats[-1] + 0.1])
+off = 1000 * (heard - song.beats[np.abs(song.beats[:, None] - heard).argmin(axis=0)])
+figure = new_figure((7.0, 2.6))
+axes = figure.subplots()
+axes.axhspan(-50, 50, color="0.93")
+axes.stem(heard, off, basefmt="k-")
+axes.set(xlabel="time [s]", ylabel="said late by [ms]", xlim=(0, 20), ylim=(-110, 110))
+save_figure(figure, made / "picture.png")
