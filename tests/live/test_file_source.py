@@ -90,7 +90,7 @@ def test_a_sample_that_is_no_number_ends_it_with_a_note(tmp_path: Path):
     source = FileSource(tmp_path / "song.wav", clock=clock)
     source.start()
     assert len(played(source, clock)) >= 55 * RATE
-    assert ["not a number at 62.00 s" in note for note in source.notes()] == [True]
+    assert ["not a number at 62.00 s" in note for note in source.notes()].count(True) == 1
 
 
 def test_files_that_are_no_songs_are_refused_at_once(tmp_path: Path):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from collections import Counter
 from pathlib import Path
@@ -19,6 +18,7 @@ from onbeat.reproduce.study import PAGE, plans, study_page
 from onbeat.reproduce.study_answers import PersonAnswers, StudyDocument, read_answers
 from onbeat.reproduce.study_server import LARGEST, Study, keep_answers, open_study, study_app
 from onbeat.reproduce.study_table import outcome_of, study_table
+from own_loop import run
 
 
 def person(number: int, chosen: str, motions: str = "xyz", a: str = "keyposes") -> PersonAnswers:
@@ -40,7 +40,7 @@ class Client:
             async with httpx.AsyncClient(transport=transport, base_url=self._base) as client:
                 return await client.request(method, path, **more)
 
-        return asyncio.run(answered())
+        return run(answered())
 
     def get(self, path: str, **more: Any) -> httpx.Response:
         return self.asks("GET", path, **more)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from collections.abc import AsyncGenerator
 
 from onbeat.studio.events import WAITING, Events
 from onbeat.studio.wire import JobItem
+from own_loop import run
 
 
 def job(share: float) -> JobItem:
@@ -34,7 +34,7 @@ def test_a_page_hears_the_revision_then_what_happens():
         events.end()
         assert [line async for line in lines] == []
 
-    asyncio.run(listening())
+    run(listening())
 
 
 def test_a_page_that_does_not_listen_is_told_to_look_anew():
@@ -52,4 +52,4 @@ def test_a_page_that_does_not_listen_is_told_to_look_anew():
         await lines.aclose()
         assert not events.full
 
-    asyncio.run(listening())
+    run(listening())

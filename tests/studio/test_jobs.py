@@ -18,6 +18,7 @@ import msgspec
 from onbeat.studio.jobs import TRIES
 from onbeat.studio.records import JobRecord, read_document
 from onbeat.studio.studio import Studio
+from own_loop import run
 from studio_house import command, house, logged, project, settled
 
 LONG = 30.0
@@ -186,5 +187,5 @@ def test_a_job_that_is_cancelled_in_the_moment_it_begins_does_not_begin(tmp_path
         await studio.close()
         return state
 
-    assert asyncio.run(begun()) == "cancelled"
+    assert run(begun()) == "cancelled"
     assert logged(tmp_path, "begin") == ["build"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import io
 import re
 import stat
@@ -18,6 +17,7 @@ from onbeat.errors import OnbeatError
 from onbeat.studio.archives import unpacked
 from onbeat.studio.project import Project
 from onbeat.studio.uploads import TooLargeError, received
+from own_loop import run
 from studio_house import TestClient, house, logged, project, settled
 
 BVH = b"HIERARCHY\nROOT hips\n"
@@ -57,7 +57,7 @@ def test_a_file_that_says_it_is_too_large_is_refused_before_a_byte_of_it_is_read
     headers = [(b"content-length", str(2 << 30).encode())]
     request = Request({"type": "http", "method": "POST", "headers": headers}, receive)
     with pytest.raises(TooLargeError, match="larger than 1000 MB"):
-        asyncio.run(received(request, project, 10**9))
+        run(received(request, project, 10**9))
     assert not list((project.folder / "incoming").iterdir())
     project.close()
 
@@ -71,7 +71,7 @@ def test_a_file_whose_sender_goes_away_leaves_nothing(tmp_path: Path):
 
     request = Request({"type": "http", "method": "POST", "headers": []}, receive)
     with pytest.raises(OnbeatError, match="ended after 4 bytes"):
-        asyncio.run(received(request, project, 10**9))
+        run(received(request, project, 10**9))
     assert not list((project.folder / "incoming").iterdir())
     project.close()
 
