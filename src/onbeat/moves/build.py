@@ -24,8 +24,8 @@ THREADS = Engine()
 
 
 def build_library(
-    paths: Sequence[Path],
-    folder: Path,
+    paths: Sequence[str | os.PathLike[str]],
+    folder: str | os.PathLike[str],
     *,
     mirror: bool = True,
     fps: float | None = None,
@@ -57,11 +57,11 @@ def build_library(
     LibraryError
         If no file is good, another builder is at work in the folder, or it cannot be written.
     """
-    recordings = find_recordings(paths, fps)
+    recordings = find_recordings([Path(path) for path in paths], fps)
     if about is not None:
         recordings = with_about(recordings, read_about(about))
     options = Options(mirror, fps, search)
-    return build_recordings(recordings, folder, options, step=step, engine=engine or Engine(workers=workers))
+    return build_recordings(recordings, Path(folder), options, step=step, engine=engine or Engine(workers=workers))
 
 
 def build_recordings(
