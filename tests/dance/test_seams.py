@@ -76,8 +76,9 @@ def test_a_join_against_the_movement_makes_a_stop(clips: list[Clip]) -> None:
     assert found == [(pytest.approx(0.0, abs=0.03), 1.0)]
 
 
-def test_seams_without_joins(clips: list[Clip]) -> None:
-    seams = find_seams(MoveLibrary(tuple(clips), graph([len(clip.poses) for clip in clips], [])))
+@pytest.mark.parametrize("joins", [None, (np.zeros(0, np.int64), np.zeros(0, np.int64))])
+def test_seams_without_joins(clips: list[Clip], joins: tuple[Ints, Ints] | None) -> None:
+    seams = find_seams(MoveLibrary(tuple(clips), graph([len(clip.poses) for clip in clips], [])), joins)
     assert seams.indptr.tolist() == [0]
     assert len(seams.at) == len(seams.sign) == 0
 

@@ -36,8 +36,8 @@ def dance(client: TestClient) -> dict[str, Any]:
     ("field", "value"),
     [
         ("song", "song-99"), ("song", "../song"), ("library", "none"), ("start", -1.0), ("start", 12.5),
-        ("seconds", 0.0), ("seconds", 1e9), ("method", "magic"), ("seed", -1), ("intensity_weight", 9.0),
-        ("robot", "r2d2"), ("speed", 0.01), ("start", "soon"), ("colour", "red"),
+        ("start", 11.5), ("seconds", 0.1), ("seconds", 1e9), ("method", "magic"), ("seed", -1),
+        ("intensity_weight", 9.0), ("robot", "r2d2"), ("speed", 0.01), ("start", "soon"), ("colour", "red"),
         ("keep", [{"dance": "dance-99", "from_s": 0.0, "to_s": 1.0}]),
     ],
 )  # fmt: skip
@@ -55,6 +55,20 @@ def test_an_order_that_cannot_be_names_its_field(client: TestClient, field: str,
 def test_a_dance_is_named_after_its_song_and_moves(dance: dict[str, Any]):
     assert (dance["name"], dance["kind"], dance["seconds"]) == ("the embedded song, the troupe", "danced", 12.0)
     assert (dance["start"], dance["speed"], dance["song"]) == (2.0, 1.0, "song")
+
+
+def test_dances_of_one_song_and_library_are_numbered(client: TestClient, dance: dict[str, Any]):
+    def named(path: str, **told: object) -> str:
+        return client.post(path, json=told).json()["name"]
+
+    names = [named("/api/dances", song="song") for _ in range(2)]
+    assert names == [f"{dance['name']} 2", f"{dance['name']} 3"]
+    assert named("/api/dances", song="song", name=dance["name"]) == dance["name"]  # as the user will
+    faster = [named(f"/api/dances/{dance['id']}/retimed", speed=1.5) for _ in range(2)]
+    assert faster == [f"{dance['name']}, 1.5 ×", f"{dance['name']}, 1.5 × 2"]
+    ready = {one["name"]: one["id"] for one in settled(client)["dances"]}
+    assert named(f"/api/dances/{ready[faster[1]]}/retimed", speed=0.8) == f"{dance['name']}, 0.8 ×"
+    settled(client)
 
 
 @pytest.mark.parametrize(

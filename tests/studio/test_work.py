@@ -12,9 +12,10 @@ import soundfile
 
 from onbeat.dance.document import DanceDocument
 from onbeat.errors import OnbeatError
+from onbeat.examples.troupe import dance_library
 from onbeat.formats.bvh_write import write_bvh
 from onbeat.motion import Motion
-from onbeat.moves.library import MoveLibrary
+from onbeat.studio import advice
 from onbeat.studio.clip_list import ClipList
 from onbeat.studio.song_view import song_view
 from onbeat.studio.tasks import (
@@ -70,15 +71,26 @@ def source(tmp_path_factory: pytest.TempPathFactory) -> SoundSource:
     return made
 
 
+@pytest.fixture(scope="module")
+def moves(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The folder of a library of five seconds each of five dancers: the troupe's takes long to build."""
+    folder = tmp_path_factory.mktemp("moves")
+    files = [(str(folder / f"move{number}.bvh"), f"dancer {number}.bvh") for number in range(5)]
+    for (path, _), take in zip(files, dance_library(fps=30.0), strict=False):
+        write_bvh(take.motion[:150], path)
+    assert done(BuildTask(str(folder / "list"), str(folder), files)).clips == 5
+    return str(folder)
+
+
 def order(out: Path, source: SoundSource, **changed: Any) -> DanceTask:
     usual = {"library": None, "marks": {}, "start": 0.5, "seconds": 7.0, "method": "optimal", "seed": 0}
     return DanceTask(out=str(out), name="clicked", song=source, **({"intensity_weight": 1.0} | usual | changed))
 
 
 @pytest.fixture(scope="module")
-def dance(tmp_path_factory: pytest.TempPathFactory, source: SoundSource, troupe: MoveLibrary) -> Path:
+def dance(tmp_path_factory: pytest.TempPathFactory, source: SoundSource, moves: str) -> Path:
     folder = tmp_path_factory.mktemp("dance")
-    found = done(order(folder, source))
+    found = done(order(folder, source, library=moves))
     assert found.seconds == pytest.approx(7.0, abs=0.02)
     assert found.f50 is not None
     return folder
@@ -112,16 +124,17 @@ def test_a_dance_has_the_page_that_onbeat_dance_writes(dance: Path):
     assert (dance / "root.npz").read_bytes() == (dance / "dance.npz").read_bytes()
 
 
-def test_marks_and_kept_stretches_are_heeded(tmp_path: Path, dance: Path, source: SoundSource, troupe: MoveLibrary):
+def test_marks_and_kept_stretches_are_heeded(tmp_path: Path, dance: Path, source: SoundSource, moves: str):
     before = DanceDocument.from_json((dance / "dance.json").read_bytes())
-    kept = [KeptDance(str(dance), 0.0, 3.0)]
-    shown = {m.clip.removesuffix("~mirror") for m in before.moves if m.at_s < 3.0}
-    others = [clip.name for clip in troupe.clips if not clip.mirrored and clip.name not in shown]
-    marks: Any = dict.fromkeys(others[:-2], "forbidden")
-    done(order(tmp_path / "again", source, keep=kept, marks=marks | {"a clip that is gone": "forbidden"}))
+    kept = [KeptDance(str(dance), 0.0, 2.0)]
+    shown = {m.clip.removesuffix("~mirror") for m in before.moves if m.at_s < 2.6}
+    later = {m.clip.removesuffix("~mirror") for m in before.moves if m.at_s >= 2.6} - shown
+    assert later
+    marks: Any = dict.fromkeys(later, "forbidden") | {"a clip that is gone": "forbidden"}
+    done(order(tmp_path / "again", source, library=moves, keep=kept, marks=marks))
     after = DanceDocument.from_json((tmp_path / "again" / "dance.json").read_bytes())
-    assert not {m.clip.removesuffix("~mirror") for m in after.moves} & set(others[:-2])
-    was, now = ([(m.clip, round(m.from_s, 1)) for m in d.moves if m.at_s < 2.5] for d in (before, after))
+    assert not {m.clip.removesuffix("~mirror") for m in after.moves} & later
+    was, now = ([(m.clip, round(m.from_s, 1)) for m in d.moves if m.at_s < 1.5] for d in (before, after))
     assert was == now
 
 
@@ -177,3 +190,26 @@ def test_a_picture_is_no_song_and_is_told_so_by_its_name(tmp_path: Path):
     with pytest.raises(OnbeatError, match=r"^holiday\.mp3") as refused:
         done(ListenTask(str(tmp_path / "out"), SoundSource("holiday.mp3", str(tmp_path / "original.mp3"))))
     assert str(tmp_path) not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("said", "here"),
+    [
+        ("a: choose a stretch with --start and --seconds", "a: choose a stretch of the song"),
+        ("too few poses; add clips or take fewer --seconds", "too few poses; add clips or dance to fewer seconds"),
+        ("no rate; say it with --fps (of `onbeat convert`, --source-fps)", "no rate; where that is wrong, "),
+        ("is the unit right? (`--source-unit`; in are inches)", "is the unit right?"),
+        ("a.bvh: no end; 3 more to know: `onbeat info a.bvh`", "a.bvh: no end; 3 more to know"),
+    ],
+)
+def test_nobody_is_told_of_a_command_line_that_is_not_there(said: str, here: str):
+    found = advice.here(said)
+    assert found.startswith(here)
+    assert "--" not in found
+    assert "`" not in found
+
+
+def test_a_motion_without_its_skeleton_is_told_to_come_with_it(tmp_path: Path):
+    (tmp_path / "walk.amc").write_text("#!OML:ASF\n:FULLY-SPECIFIED\n:DEGREES\n1\n")
+    with pytest.raises(OnbeatError, match=r"^my walk\.amc .* drop both together"):
+        done(LookTask(str(tmp_path / "look"), [("motion-0", str(tmp_path / "walk.amc"), "my walk.amc")]))

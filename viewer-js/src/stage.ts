@@ -131,6 +131,19 @@ export class Stage {
     this.scene.add(extra.group);
   }
 
+  /** All that was added goes. */
+  bare(): void {
+    for (const { group } of this.extras) {
+      this.scene.remove(group);
+      group.traverse((part) => {
+        if (!(part instanceof THREE.Mesh)) return;
+        part.geometry.dispose();
+        (part.material as THREE.Material).dispose();
+      });
+    }
+    this.extras.length = 0;
+  }
+
   /** Where the dancer is over the whole dance: what is seen from the front, the side and above. */
   survey(reach: Reach): void {
     this.views.reach = reach;

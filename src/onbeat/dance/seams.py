@@ -53,6 +53,8 @@ class Seams:
 def find_seams(library: MoveLibrary, joins: tuple[Ints, Ints] | None = None) -> Seams:
     """Look at all joins of a library, or at ``joins`` from frames to frames of its graph."""
     leave, enter = (library.graph.sources, library.graph.targets) if joins is None else joins
+    if len(leave) == 0:  # no way from one clip into another is left: each is danced for itself
+        return Seams(np.zeros(1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32))
     clip_of = library.graph.clip_of
     used = np.unique(np.concatenate((clip_of[leave], clip_of[enter]))) if joins else np.arange(len(library.clips))
     paths, speeds, starts = _hands(library, used)

@@ -174,6 +174,8 @@ def one_file(upload: Path, folder: Path, name: str) -> list[tuple[Path, str]]:
     OnbeatError
         If its ending is that of no motion file.
     """
+    if name.lower().endswith(BESIDE):
+        raise OnbeatError(f"{name!r} is no motion by itself: drop it together with its motion files, or in one .zip")
     if not name.lower().endswith(MOTIONS):
         raise OnbeatError(
             f"{name!r} has the ending of no motion file; expected one of {', '.join(MOTIONS)}, or a .zip of them"

@@ -8,8 +8,8 @@ from onbeat.studio.answers import FieldError
 from onbeat.studio.studio import METHODS, ROBOTS, NotHereError, Studio
 from onbeat.studio.wire import DanceItem, DanceOrder, KeptStretch, SongItem
 
-LONGEST = 1200.0
-"""Seconds of a dance, as of ``onbeat.dance.make``."""
+SHORTEST, LONGEST = 1.0, 1200.0
+"""Seconds of a dance; the longest as of ``onbeat.dance.make``."""
 SPEEDS = (0.25, 4.0)
 HEAVIEST = 4.0
 """Times that the intensity may weigh more than it does by itself."""
@@ -61,11 +61,14 @@ def _song(studio: Studio, told: DanceOrder) -> SongItem:
 def _check_stretch(told: DanceOrder, song: SongItem) -> None:
     """The stretch has to lie in the song, where its length is known already."""
     length = song.duration if song.state == "ready" else math.inf
-    if not 0 <= told.start < length:
-        raise FieldError("start", f"start {told.start:g} s: give a second of the song, which lasts {length:.1f} s")
+    told_length = "" if math.isinf(length) else f", which lasts {length:.1f} s"
+    if not 0 <= told.start <= max(length - SHORTEST, 0.0):
+        raise FieldError(
+            "start", f"from {told.start:g} s: give a second of the song{told_length}, with {SHORTEST:g} s after it"
+        )
     seconds = told.seconds if told.seconds is not None else length - told.start
-    if not seconds > 0:
-        raise FieldError("seconds", f"{seconds:g} seconds: give more than 0")
+    if not seconds >= SHORTEST:
+        raise FieldError("seconds", f"{seconds:g} seconds: give {SHORTEST:g} or more")
     if LONGEST < seconds < math.inf:
         raise FieldError("seconds", f"{seconds / 60:.0f} minutes; a dance lasts at most {LONGEST / 60:.0f}")
 

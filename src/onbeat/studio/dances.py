@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import msgspec
 from msgspec.structs import replace
 from starlette.requests import Request
@@ -31,7 +33,7 @@ async def order_dance(request: Request) -> Response:
     check_order(studio, told)
     song = studio.item("songs", told.song, SongItem)
     library = studio.item("libraries", told.library, LibraryItem)
-    name = clean_name(told.name, f"{_stem(song.name)}, {library.name}")
+    name = clean_name(told.name, "") or _new_name(studio, f"{_stem(song.name)}, {library.name}")
     needs = [told.song, told.library, *(stretch.dance for stretch in told.keep)]
     item = DanceItem(
         "", name, "danced", told, song=song.id, start=told.start, speed=told.speed, robot=told.robot
@@ -55,7 +57,8 @@ async def retime_dance(request: Request) -> Response:
     source = studio.ready("dances", request.path_params["id"], DanceItem)
     told = await order(request, RetimeOrder)
     check_speed(told.speed)
-    name = clean_name(told.name, f"{source.name}, {told.speed:g} ×")
+    before = _without(source.name, f"{source.speed:g} ×")
+    name = clean_name(told.name, "") or _new_name(studio, f"{before}, {told.speed:g} ×")
     kind: JobKind = "retime" if source.robot is None else "robot"
     item = replace(_again(source, name), kind="retimed", speed=told.speed)
     return _ordered(studio, item, kind, f"retiming {name}", [source.id, source.song])
@@ -67,7 +70,7 @@ async def dance_on_robot(request: Request) -> Response:
     source = studio.ready("dances", request.path_params["id"], DanceItem)
     told = await order(request, RobotOrder)
     check_robot(told.robot)
-    name = clean_name(told.name, f"{source.name}, {told.robot}")
+    name = clean_name(told.name, "") or _new_name(studio, f"{_without(source.name, source.robot)}, {told.robot}")
     item = replace(_again(source, name), kind="robot", robot=told.robot)
     return _ordered(studio, item, "robot", f"putting {name} on its feet", [source.id, source.song])
 
@@ -112,6 +115,25 @@ async def remove_dance(request: Request) -> Response:
     for export in [e.id for e in studio.folder.document.exports.values() if e.dance == item.id]:
         studio.remove("exports", export)
     return Response(status_code=204)
+
+
+def _new_name(studio: Studio, name: str) -> str:
+    """A name that no dance has yet: numbered where others have it."""
+    taken = {dance.name for dance in studio.folder.document.dances.values()}
+    name = clean_name(name, "dance")
+    numbers = (f"{name} {number}" for number in range(2, len(taken) + 3))
+    return next(one for one in (name, *numbers) if one not in taken)
+
+
+def _without(name: str, part: str | None) -> str:
+    """A name without one of its parts, and the number that came with it.
+
+    Examples
+    --------
+    >>> _without("waltz, 1.2 × 3, g1", "1.2 ×")
+    'waltz, g1'
+    """
+    return name if part is None else re.sub(rf", {re.escape(part)}( \d+)?(?=,|$)", "", name)
 
 
 def _stem(name: str) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from onbeat.errors import OnbeatError
 from onbeat.moves.library import MoveLibrary
+from onbeat.studio.advice import here
 from onbeat.studio.clip_list import ClipList
 from onbeat.studio.tasks import BuildTask, Done
 from onbeat.studio.telling import Tell
@@ -43,4 +44,4 @@ def _named(text: str, task: BuildTask) -> str:
     """What is said of files, said by the user's names of them."""
     for path, name in task.files:
         text = text.replace(path, name).replace(Path(path).name, name)
-    return text.replace(task.folder, "the library")
+    return here(text.replace(task.folder, "the library"))

@@ -69,7 +69,8 @@ def _page(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
     samples, rate = _sound(task, dance)
     tell("writing", 0.3)
     scene = msgspec.json.decode((Path(task.folder) / SCENE).read_bytes(), type=PageData)
-    page = msgspec.structs.replace(scene, audio=encode(samples, rate), waveform=waveform(samples, rate))
+    title = dance.motion.name or scene.title
+    page = msgspec.structs.replace(scene, title=title, audio=encode(samples, rate), waveform=waveform(samples, rate))
     write_atomically(path, filled(page))
 
 

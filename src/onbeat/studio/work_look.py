@@ -19,6 +19,7 @@ from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.motion import Body, Motion
 from onbeat.motion.edit import stature
 from onbeat.motion.features import hand_features
+from onbeat.studio.advice import here
 from onbeat.studio.tasks import Done, LookTask, MotionSeen
 from onbeat.studio.telling import Tell
 from onbeat.studio.wire import MotionView
@@ -48,8 +49,8 @@ def looked(task: LookTask, tell: Tell) -> Done:
 def _named(text: str, path: Path, name: str) -> str:
     """What is said of a file, said by the user's name of it."""
     if path.suffix == ".amc" and text.startswith("no skeleton"):
-        text += "; pack both into one .zip"
-    return text.replace(str(path), name).replace(f"{path.parent}/", "").replace(path.name, name)
+        return f"{name} tells how a skeleton moves that is in an .asf file: drop both together, or in one .zip"
+    return here(text).replace(str(path), name).replace(f"{path.parent}/", "").replace(path.name, name)
 
 
 def _seen(out: Path, id: str, path: Path, name: str) -> MotionSeen:

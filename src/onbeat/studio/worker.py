@@ -18,6 +18,7 @@ from typing import Any, BinaryIO
 import msgspec
 
 from onbeat.errors import OnbeatError
+from onbeat.studio.advice import here
 from onbeat.studio.tasks import (
     BuildTask,
     DanceTask,
@@ -51,7 +52,7 @@ def main() -> None:
     try:
         say(work_of(task)(task, Tell(say.progress)))
     except OnbeatError as error:
-        say(Failed(str(error)))
+        say(Failed(here(str(error))))
     except MemoryError:
         say(Failed("there was not enough memory; try a shorter stretch of the song or fewer clips"))
     except OSError as error:

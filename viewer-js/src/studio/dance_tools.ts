@@ -35,26 +35,23 @@ function save(made: ExportItem): void {
 export class DanceTools {
   readonly root: HTMLElement;
   readonly beside = choice(NONE, "");
-  private readonly speed = h("input", {
-    type: "range",
-    name: "speed",
-    min: SLOWEST,
-    max: FASTEST,
-    step: 0.01,
-    value: 1,
-  });
+  private readonly speed = h("input", { type: "range", name: "speed", step: 0.01 });
   private readonly speedTold = h("output", {});
   private readonly robot = choice([], "");
   private readonly format = choice([], "");
   private readonly formatTold = h("small", {});
   private readonly files = h("ul", { class: "files" });
   private readonly exporting: HTMLButtonElement;
+  private readonly retiming = button("Retime", () => void this.act(() => this.retime()));
 
   constructor(
     private readonly store: Store,
     private item: DanceItem,
     view: DanceView,
   ) {
+    this.speed.min = String(Math.min(SLOWEST, item.speed));
+    this.speed.max = String(Math.max(FASTEST, item.speed));
+    this.speed.value = String(item.speed);
     this.speed.addEventListener("input", () => this.tell());
     this.format.addEventListener("change", () => this.tell());
     this.exporting = button("Export", () => void this.act(() => this.export()), { class: "text strong" });
@@ -65,12 +62,7 @@ export class DanceTools {
       section(
         "Tempo",
         field("Speed of the music", this.speed),
-        h(
-          "div",
-          { class: "row" },
-          this.speedTold,
-          button("Retime", () => void this.act(() => this.retime())),
-        ),
+        h("div", { class: "row" }, this.speedTold, this.retiming),
       ),
       section(
         "Robot",
@@ -127,7 +119,8 @@ export class DanceTools {
   private tell(): void {
     const speed = Number(this.speed.value);
     const tempo = `×${speed.toFixed(2)}`;
-    say(this.speedTold, speed === 1 ? `${tempo}, as it is` : `${tempo}, ${speed > 1 ? "faster" : "slower"}`);
+    this.retiming.disabled = Math.abs(speed - this.item.speed) < 0.005;
+    say(this.speedTold, `${tempo}, ${pace(speed, this.item.speed)}`);
     this.speed.setAttribute("aria-valuetext", tempo);
     const format = this.store.project?.formats.find(({ name }) => name === this.format.value);
     say(this.formatTold, format?.missing ?? "");
@@ -143,11 +136,21 @@ export class DanceTools {
       row.replaceChildren(
         h("a", { href: `/api/exports/${made.id}`, download: made.file }, made.file),
         h("span", { class: "soft" }, size(made.bytes)),
+        this.away(made),
       );
     else
       row.replaceChildren(
         h("span", { class: made.state === "failed" ? "problem" : "soft" }, made.error ?? `${made.file}: ${made.state}`),
+        this.away(made),
       );
+  }
+
+  private away({ id, file }: ExportItem): HTMLElement {
+    const remove = async (): Promise<void> => {
+      await ask("DELETE", `exports/${id}`);
+      await this.store.refresh();
+    };
+    return button("×", () => void this.act(remove), { class: "away", "aria-label": `Take away: ${file}`, title: "Take away" });
   }
 
   private figures({ metrics }: DanceView): HTMLElement {
@@ -204,6 +207,13 @@ export class DanceTools {
       notice(words(error), true);
     }
   }
+}
+
+/** A speed of the music in words, beside the one that is danced now. */
+function pace(speed: number, now: number): string {
+  if (Math.abs(speed - now) < 0.005) return "as it is";
+  if (speed === 1) return "the song's own";
+  return speed > now ? "faster" : "slower";
 }
 
 function section(title: string, ...parts: readonly HTMLElement[]): HTMLElement {

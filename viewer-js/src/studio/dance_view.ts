@@ -6,6 +6,7 @@ import { Clicks } from "./clicks";
 import type { DanceItem, DanceOrder, DanceView as Danced, SongView } from "./contract";
 import { DanceTools } from "./dance_tools";
 import { button, h, say } from "./elements";
+import { GraphView } from "./graph_view";
 import { LockList } from "./lock_list";
 import { Locks } from "./locks";
 import { notice } from "./notices";
@@ -13,6 +14,7 @@ import { LIKE } from "./order_view";
 import { palette } from "./palette";
 import { pending } from "./pending";
 import { Score } from "./score";
+import { StageTools } from "./stage_tools";
 import { Transport } from "./transport";
 import { go, type Studio, type View } from "./view";
 import { exactly, nextName } from "./words";
@@ -25,6 +27,8 @@ interface Shown {
   tools: DanceTools;
   locks: Locks;
   clicks: Clicks;
+  stage: StageTools;
+  graph: GraphView;
 }
 
 export class DanceView implements View {
@@ -71,6 +75,7 @@ export class DanceView implements View {
     studio.looks[0].draw(time, seconds, playing);
     if (other) studio.looks[1].draw(this.besideOf(time), seconds, playing);
     shown.score.track.draw(time, playing);
+    shown.graph.draw(time);
   }
 
   key(event: KeyboardEvent): boolean {
@@ -83,7 +88,8 @@ export class DanceView implements View {
     } else if (event.key === "]") {
       shown.locks.add(this.opening ?? 0, now);
       this.opening = undefined;
-    } else return shown.transport.key(event);
+    } else if (event.key.toLowerCase() === "g") shown.graph.toggle();
+    else return shown.stage.key(event) || shown.transport.key(event);
     return true;
   }
 
@@ -140,11 +146,13 @@ export class DanceView implements View {
     const clicks = new Clicks(player, () => ({ times: scene.beats, down: (i) => starts.has(scene.beats[i]) }));
     const transport = new Transport(player, { clicks, looks });
     const tools = new DanceTools(store, item, danced);
-    this.shown = { danced, score, transport, tools, locks, clicks };
+    const [stage, graph] = [new StageTools(looks), new GraphView(scene, player)];
+    this.shown = { danced, score, transport, tools, locks, clicks, stage, graph };
     tools.beside.addEventListener("change", () => void this.compare(tools.beside.value));
     void this.hear(item, score);
     this.lay(item, list.root);
     looks[0].show(scene, "", `${item.name}, danced`);
+    stage.tell();
     if (!this.besideAtFirst) return;
     tools.beside.value = this.besideAtFirst;
     void this.compare(this.besideAtFirst);
@@ -160,7 +168,7 @@ export class DanceView implements View {
   }
 
   private lay(item: DanceItem, locks: HTMLElement): void {
-    const { danced, score, transport, tools } = this.shown as Shown;
+    const { danced, score, transport, tools, stage, graph } = this.shown as Shown;
     const { order } = item;
     const facts = [
       exactly(danced.scene.duration),
@@ -187,10 +195,11 @@ export class DanceView implements View {
           ),
           item.kind === "danced" && button("Dance it otherwise", () => go("order", `${LIKE}/${item.id}`)),
         ),
-        h("div", { class: "looks" }, ...this.studio.looks.map(({ root }) => root)),
+        h("div", { class: "looks" }, ...this.studio.looks.map(({ root }) => root), stage.root),
         transport.root,
         score.root,
         item.kind === "danced" && locks,
+        graph.root,
       ),
       tools.root,
     );
@@ -212,7 +221,7 @@ export class DanceView implements View {
 
   private async compare(id: string): Promise<void> {
     const { looks } = this.studio;
-    const { danced, score } = this.shown as Shown;
+    const { danced, score, stage } = this.shown as Shown;
     try {
       this.other = id ? await ask<Danced>("GET", `dances/${id}`) : undefined;
     } catch (error) {
@@ -222,6 +231,7 @@ export class DanceView implements View {
     this.root.classList.toggle("compared", other !== undefined);
     looks[1].root.hidden = !other;
     looks[0].show(danced.scene, other ? danced.item.name : "", `${danced.item.name}, danced`);
+    stage.tell();
     score.compare(other && { scene: other.scene, at: (time) => this.besideBack(time) });
     if (!other) return looks[1].clear();
     looks[1].show(other.scene, other.item.name, `${other.item.name}, danced`);

@@ -6,8 +6,10 @@ import { at } from "./elements";
 import { notice } from "./notices";
 import type { Store } from "./store";
 import { go } from "./view";
+import { zipped } from "./zip";
 
 const SOUNDS = /\.(wav|flac|ogg|oga|mp3|m4a|aac|mp4|mov|mkv|webm|aif|aiff|opus)$/i;
+const BESIDE = /\.(asf|toml)$/i; // what motion files need beside them
 
 /** A file on its way to the server. */
 export interface Sending {
@@ -49,7 +51,8 @@ export class Dropping {
   }
 
   /** One after the other: the server's line is not made wider by many at once. */
-  async take(files: readonly File[]): Promise<void> {
+  async take(chosen: readonly File[]): Promise<void> {
+    const files = await together(chosen);
     const entries = files.map((file) => ({ file, entry: this.entry(file) }));
     for (const { file, entry } of entries) if (entry) await this.give(file, entry);
   }
@@ -60,7 +63,7 @@ export class Dropping {
       notice(`${file.name} has ${megabytes(file.size)}; this studio takes files of up to ${megabytes(largest)}.`, true);
       return undefined;
     }
-    const kind = SOUNDS.test(file.name) || file.type.startsWith("audio/") ? "song" : "motion";
+    const kind = isSound(file) ? "song" : "motion";
     const entry: Sending = { key: `sending${++this.count}`, name: file.name, kind, share: 0 };
     this.sending = [...this.sending, entry];
     this.changed();
@@ -94,6 +97,20 @@ export class Dropping {
     this.depth = Math.max(this.depth + by, 0);
     at("drop").hidden = this.depth === 0;
   }
+}
+
+/** Skeletons and roles files go in one archive with the motion files that came with them. */
+async function together(files: readonly File[]): Promise<readonly File[]> {
+  const beside = files.filter(({ name }) => BESIDE.test(name));
+  const wanted = beside.some(({ name }) => /\.toml$/i.test(name)) ? /./ : /\.amc$/i;
+  const motions = files.filter((file) => !beside.includes(file) && wanted.test(file.name) && !isSound(file) && !/\.zip$/i.test(file.name));
+  if (!beside.length || !motions.length) return files;
+  const archive = await zipped([...beside, ...motions], beside[0].name.replace(BESIDE, ".zip"));
+  return [...files.filter((file) => !beside.includes(file) && !motions.includes(file)), archive];
+}
+
+function isSound({ name, type }: File): boolean {
+  return SOUNDS.test(name) || type.startsWith("audio/");
 }
 
 function megabytes(bytes: number): string {

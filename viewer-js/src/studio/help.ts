@@ -27,7 +27,15 @@ const KEYS: [string, [keys: string, does: string][]][] = [
       ["+ −", "zoom"],
     ],
   ],
-  ["A dance", [["[ ]", "a locked stretch begins, ends at the play head"]]],
+  [
+    "A dance",
+    [
+      ["[ ]", "a locked stretch begins, ends at the play head"],
+      ["S", "marks where feet stand"],
+      ["O", "ghosts: the body some beats before and after"],
+      ["G", "the motion graph"],
+    ],
+  ],
   [
     "Timelines",
     [

@@ -3,6 +3,8 @@
 import type { PageData } from "../contract";
 import { lastBefore } from "../data";
 import { Dancer } from "../dancer";
+import { Ghosts, type Haunting } from "../ghosts";
+import { Marks } from "../marks";
 import { type Places, StoredPath } from "../path";
 import { reachOf, type ViewName } from "../presets";
 import { Stage } from "../stage";
@@ -42,6 +44,9 @@ export class Look {
   private scene?: PageData;
   private shape = 0; // of the picture when the camera was placed
   private night = false;
+  private marks?: Marks;
+  private ghosts?: Ghosts;
+  private standing = true;
   view: ViewName = "follow";
 
   constructor() {
@@ -58,6 +63,37 @@ export class Look {
     if (this.stage) this.stage.dark = dark;
   }
 
+  /** Whether marks are drawn where feet stand. */
+  get feet(): boolean {
+    return this.standing;
+  }
+
+  set feet(shown: boolean) {
+    this.standing = shown;
+    if (this.marks) this.marks.shown = shown;
+    this.stage?.renew();
+  }
+
+  /** Whether it is known where feet stand. */
+  get steps(): boolean {
+    return (this.scene?.steps.length ?? 0) > 0;
+  }
+
+  get hauntings(): readonly Haunting[] {
+    return this.ghosts?.choices ?? ["off"];
+  }
+
+  get haunting(): Haunting {
+    return this.ghosts?.chosen ?? "off";
+  }
+
+  /** The body at other times, over the one of now. */
+  haunt(haunting: Haunting): void {
+    const { ghosts } = this;
+    ghosts?.choose(ghosts.choices.includes(haunting) ? haunting : "off");
+    this.stage?.renew();
+  }
+
   /** Where the camera looks from. */
   look(view: ViewName): void {
     this.view = view;
@@ -67,6 +103,7 @@ export class Look {
   /** Another dancer comes; `name` stands under it where there are two. */
   show(scene: PageData, name: string, told: string): void {
     this.scene = scene;
+    this.ghosts = undefined;
     say(this.caption, name);
     this.caption.hidden = name === "";
     this.canvas.setAttribute("aria-label", `${told}. Drag to look around, scroll to come closer.`);
@@ -100,6 +137,7 @@ export class Look {
       else this.stage = new Stage(canvas, { floor: 0, facing: 0 }, dancer);
       this.stage.survey(reachOf(places, scene.joints.length, scene.spine[0], scene.duration, 0));
       this.stage.look(this.view, true);
+      this.furnish(scene, places);
       this.stage.dark = this.night;
       this.problem.hidden = true;
     } catch (error) {
@@ -107,5 +145,17 @@ export class Look {
       this.problem.hidden = false;
       this.scene = undefined;
     }
+  }
+  /** What is drawn beside the dancer, as it was before where it is the same scene. */
+  private furnish(scene: PageData, places: Places): void {
+    const before = this.haunting;
+    this.marks = new Marks(scene.steps, 0);
+    this.marks.group.rotation.z = -scene.facing;
+    this.marks.shown = this.standing;
+    this.ghosts = new Ghosts({ ...scene, floor: 0 }, places);
+    this.stage?.bare();
+    this.stage?.add(this.marks);
+    this.stage?.add(this.ghosts);
+    this.haunt(before);
   }
 }

@@ -102,7 +102,7 @@ class Page implements Studio {
 
   /** Shows what the address names. */
   private turn(): void {
-    const where = decodeURIComponent(location.hash.slice(1)) || "start";
+    const where = decoded(location.hash.slice(1)) || "start";
     if (!this.store.project || where === this.where) return;
     this.view?.close?.();
     this.player.pause();
@@ -159,6 +159,15 @@ class Page implements Studio {
     at("dark").setAttribute("aria-pressed", String(dark));
     for (const look of this.looks) look.dark = dark;
     this.view?.dim?.();
+  }
+}
+
+/** What an address names; one that somebody spoiled names nothing. */
+function decoded(words: string): string {
+  try {
+    return decodeURIComponent(words);
+  } catch {
+    return "";
   }
 }
 

@@ -7,6 +7,7 @@ import { newLibrary } from "./library_dialog";
 import { palette } from "./palette";
 import { pending } from "./pending";
 import { Score } from "./score";
+import { StageTools } from "./stage_tools";
 import { Transport } from "./transport";
 import type { Studio, View } from "./view";
 import { exactly, plainName, plural } from "./words";
@@ -16,6 +17,7 @@ export class MotionView implements View {
   title = "Motion";
   private score?: Score;
   private transport?: Transport;
+  private stage?: StageTools;
   private asked = false;
 
   constructor(
@@ -41,7 +43,7 @@ export class MotionView implements View {
   }
 
   key(event: KeyboardEvent): boolean {
-    return this.transport?.key(event) ?? false;
+    return (this.stage?.key(event) || this.transport?.key(event)) ?? false;
   }
 
   dim(): void {
@@ -64,6 +66,7 @@ export class MotionView implements View {
     player.load({ url: null, start: 0, speed: 1, duration: seen.seconds });
     this.score = new Score(withFindings(seen), player, undefined, () => palette(this.studio.dark()));
     this.transport = new Transport(player, { looks: [look] });
+    this.stage = new StageTools([look]);
     const facts = [
       exactly(seen.seconds),
       `${Math.round(seen.fps)} frames a second`,
@@ -88,11 +91,12 @@ export class MotionView implements View {
           button("Make a library with it", () => newLibrary(this.studio.store, [this.id]), { class: "text strong" }),
         ),
       ),
-      h("div", { class: "looks" }, look.root),
+      h("div", { class: "looks" }, look.root, this.stage.root),
       this.transport.root,
       this.score.root,
     );
     look.show(seen.scene, "", `${seen.name}, moving`);
+    this.stage.tell();
   }
 }
 

@@ -1,0 +1,35 @@
+"""What messages advise, said for the studio: who sees them has a page before them and no command line."""
+
+from __future__ import annotations
+
+import re
+
+_SAID = (
+    (r"choose (a|another) stretch(?: of it)? with --start and --seconds", r"choose \1 stretch of the song"),
+    (r"take fewer --seconds", "dance to fewer seconds"),
+    (r"play the plan as it is with --no-warp", "choose another stretch of the song or other moves"),
+    (r"say it with --[^;\n)]*(?:\([^)]*\))?", "where that is wrong, save the file at that rate and drop it again"),
+    (r"build one with `onbeat moves build[^`]*`", "make the library again"),
+    (r"write one with `onbeat dance`", "dance it again"),
+    (r"`onbeat moves show` lists all of a library, dance\.json those of a dance", "the library's page lists all"),
+    (r": `onbeat info [^`]*`", ""),
+    (r" \(`?(?:onbeat )?(?:[a-z]+ )?--[^)]*\)", ""),
+    (r" \(`onbeat [^`)]*`[^)]*\)", ""),
+)
+"""What is advised to those at a command line, and what is to be done here instead."""
+_RULES = tuple((re.compile(said), here) for said, here in _SAID)
+
+
+def here(text: str) -> str:
+    """A message without what only a command line can do.
+
+    Examples
+    --------
+    >>> here("no beat is heard in 2.0 s; at least 2 are needed: choose another stretch with --start and --seconds")
+    'no beat is heard in 2.0 s; at least 2 are needed: choose another stretch of the song'
+    >>> here("feet stand at +0.20 m (`onbeat convert --ground` puts them on 0)")
+    'feet stand at +0.20 m'
+    """
+    for said, instead in _RULES:
+        text = said.sub(instead, text)
+    return text
