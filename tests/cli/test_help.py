@@ -28,6 +28,14 @@ def test_a_command_says_what_it_does_and_gives_an_example(name: str, capsys: pyt
     assert f"Example: {COMMANDS[name][2]}" in shown
 
 
+@pytest.mark.parametrize("name", ["moves", "songs", "reproduce"])
+def test_a_list_of_commands_says_what_each_does(name: str, capsys: pytest.CaptureFixture[str]):
+    listed = help_of(capsys, name).partition("Commands")[2].partition("╰")[0]
+    lines = [line.strip("│ ").split(maxsplit=1) for line in listed.splitlines() if line.startswith("│")]
+    assert lines
+    assert all(len(line) == 2 for line in lines), f"no word about some of {[line[0] for line in lines]}"
+
+
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_example_is_taken(name: str):
     program, *words = shlex.split(COMMANDS[name][2])

@@ -47,3 +47,16 @@ def test_what_cannot_be_is_refused(words: list[str], match: str, tmp_path: Path)
     with pytest.raises(OnbeatError, match=match):
         call(*words, "-o", str(tmp_path / "out"))
     assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_that_cannot_be_is_refused_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(cli, "reproduce", lambda *_, **__: pytest.fail("the work was begun"))
+    (tmp_path / "file").write_text("")
+    for output in (tmp_path / "file", tmp_path / "file" / "in_it"):
+        with pytest.raises(OnbeatError, match="is not a folder; choose another folder"):
+            call("P1", "-o", str(output))
+
+
+def test_the_study_is_told_of_in_the_help(capsys: pytest.CaptureFixture[str]):
+    call("--help")
+    assert "Ask people which motion looks more" in " ".join(capsys.readouterr().out.split())

@@ -82,3 +82,9 @@ def test_what_cannot_be_is_refused(words: list[str], told: str, tmp_path: Path, 
     with pytest.raises(OnbeatError, match=told):
         call(*words)
     assert not list(tmp_path.rglob("*.html"))
+
+
+@pytest.mark.parametrize("port", ["65536", "-1"])
+def test_a_port_that_no_machine_has_is_refused(tmp_path: Path, port: str):
+    with pytest.raises(OnbeatError, match=f"--port {port}: give a number from 1 to 65535"):
+        call(str(tmp_path), "--sequences", "2", "--port", port)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 
 import msgspec
@@ -17,9 +18,11 @@ from onbeat.dance.optimal import Path, Problem, ValueToGo, best_path
 from onbeat.dance.search import METHODS, search
 from onbeat.dance.variety import beam_path
 from onbeat.dance.walk import random_walk
-from onbeat.dance.wished import Wished
+from onbeat.dance.wished import OtherBeatsWarning, Wished
 from onbeat.dance.wishes import Kept, Wishes
 from onbeat.errors import PlanError
+from onbeat.examples import embedded_motions
+from onbeat.moves.cache import build_from
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
 from walkable import brute_force, check_path, random_problem
@@ -34,8 +37,10 @@ def song_of(seconds: float) -> Song:
 
 
 @pytest.fixture(scope="module")
-def few(troupe: MoveLibrary) -> MoveLibrary:
-    return MoveLibrary.of(troupe.clips[:6])
+def few(tmp_path_factory: pytest.TempPathFactory) -> MoveLibrary:
+    """Three clips of the troupe and their mirror images: joining all takes long."""
+    kept = tmp_path_factory.mktemp("library")
+    return MoveLibrary.of(build_from(lambda: embedded_motions()[:3], "three clips", kept, workers=1).clips)
 
 
 @pytest.fixture(scope="module")
@@ -86,7 +91,7 @@ def test_the_optimum_with_something_kept_is_what_trying_all_ways_finds(monkeypat
         return -np.inf if problem.must[t] not in (-1, f) else worth(problem, t, f)
 
     monkeypatch.setattr(walkable, "shown_worth", of_kept)
-    for problem in keeping(40, seed=1):
+    for problem in keeping(15, seed=1):
         best, value = brute_force(problem), ValueToGo(problem)
         assert value.optimum == pytest.approx(best, abs=1e-3)
         paths = [best_path(value), beam_path(problem, value, beam=500, repeat=0.0)]
@@ -98,7 +103,7 @@ def test_the_optimum_with_something_kept_is_what_trying_all_ways_finds(monkeypat
             frames = frames_of(path, problem.music.frames)
             np.testing.assert_array_equal(frames[problem.must >= 0], problem.must[problem.must >= 0])
         bound += best < ValueToGo(replace(problem, kept=None)).optimum - 0.01
-    assert bound > 12  # what is kept is not what would be danced anyway
+    assert bound > 4  # what is kept is not what would be danced anyway
 
 
 @pytest.mark.parametrize("method", ["optimal", "shiratori2006"])
@@ -213,6 +218,15 @@ def test_refusals(few: MoveLibrary, earlier: DanceDocument) -> None:
     ):
         with pytest.raises(PlanError, match=message):
             make()
+
+
+def test_a_stretch_of_a_dance_to_other_beats_is_told(few: MoveLibrary, earlier: DanceDocument) -> None:
+    song, wishes = song_of(SECONDS), Wishes(kept=(Kept(earlier, 3.0, 5.0),))
+    with pytest.warns(OtherBeatsWarning, match="3 to 5 s is kept of a dance to other beats: 0 of its 3 beats"):
+        Wished.of(wishes, few, replace(song, beats=song.beats + 0.3))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Wished.of(wishes, few, song)
 
 
 def test_no_way_between_what_is_kept_is_said() -> None:

@@ -50,6 +50,8 @@ def test_a_name_that_is_not_known_gets_one_that_is_alike():
         FetchError, match=r"no moves are known as 'cmu-danse'; did you mean cmu-dance\? There are cmu-dance,"
     ):
         source_named("moves", "cmu-danse")
+    with pytest.raises(FetchError, match=r"no songs are known as '\.\./x'; there are sugar-plum-fairy,"):
+        source_named("songs", "../x")
 
 
 @pytest.mark.parametrize("text", ["moves = 3", "[moves.a]\ntitle = 'x'\n[songs]", "[moves"])

@@ -10,13 +10,16 @@ import pytest
 import soundfile
 
 from onbeat.errors import OnbeatError
+from onbeat.examples import embedded_motions
 from onbeat.metrics.beats import recall
+from onbeat.moves.cache import build_from
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 from onbeat.reproduce import p1
 from onbeat.reproduce.data import Data
 from onbeat.reproduce.p1_choice import choice_before
-from onbeat.reproduce.p1_dances import METHODS, Danced, dance
+from onbeat.reproduce.p1_claims import claims
+from onbeat.reproduce.p1_dances import METHODS, Danced, Method, dance
 from onbeat.reproduce.p1_figures import features_figure
 from onbeat.reproduce.p1_songs import Tune, found, interval, tunes
 from onbeat.reproduce.p1_tables import beat_table
@@ -25,9 +28,10 @@ from sounds import HEARD_RATE, beat_times, hat, kick, mix, piano
 
 
 @pytest.fixture(scope="module")
-def library(troupe: MoveLibrary) -> MoveLibrary:
-    """Some clips of the troupe, without their mirror images."""
-    return MoveLibrary.of([clip for clip in troupe.clips if not clip.mirrored][:6])
+def library(tmp_path_factory: pytest.TempPathFactory) -> MoveLibrary:
+    """Some clips of the troupe, without their mirror images: joining all takes long."""
+    kept = tmp_path_factory.mktemp("library")
+    return MoveLibrary.of(build_from(lambda: embedded_motions()[:4], "four", kept, mirror=False, workers=1).clips)
 
 
 @pytest.fixture(scope="module")
@@ -56,10 +60,16 @@ def danced(heard: Tune, library: MoveLibrary) -> Danced:
 
 
 @pytest.fixture(scope="module")
-def result(song: Path, library: MoveLibrary) -> PaperResult:
-    """The whole paper on it."""
+def result(song: Path, library: MoveLibrary, heard: Tune, danced: Danced) -> PaperResult:
+    """The whole paper on it; what is heard and danced already is not heard and danced again."""
+
+    def again(tune: Tune, moves: MoveLibrary, method: Method, seed: int) -> Danced:
+        return danced if method == METHODS["published"] else dance(tune, moves, method, seed)
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(p1, "open_library", lambda data: library)
+        patch.setattr(p1, "tunes", lambda data, step: [heard])
+        patch.setattr(p1, "dance", again)
         return p1.PAPER.reproduce(Data(songs=(song,), quick=True), lambda share, what: None)
 
 
@@ -74,6 +84,27 @@ def test_beats_beside_a_song_are_taken_as_true(heard: Tune):
 def test_a_song_that_is_not_there_is_refused(tmp_path: Path):
     with pytest.raises(OnbeatError, match=r"no song .*none\.wav"):
         tunes(Data(songs=(tmp_path / "none.wav",)), lambda share, what: None)
+    with pytest.raises(OnbeatError, match="is a folder; give audio files"):
+        p1.PAPER.reproduce(Data(songs=(tmp_path,)), lambda share, what: None)
+
+
+def test_clips_that_are_not_there_are_said_before_songs_are_heard(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(p1, "tunes", lambda data, step: pytest.fail("songs were heard first"))
+    with pytest.raises(OnbeatError, match="no file or folder"):
+        p1.PAPER.reproduce(Data(motions=(tmp_path / "none",)), lambda share, what: None)
+
+
+def test_a_claim_that_so_few_songs_cannot_tell_from_chance_is_left_open(danced: Danced):
+    def followed(*values: float) -> list[Danced]:
+        return [replace(danced, scores=danced.scores | {"intensity_pearson": value}) for value in values]
+
+    def holds(both: list[Danced], rhythm: list[Danced]) -> bool | None:
+        every = dict.fromkeys(METHODS, rhythm) | {"published": both}
+        return claims([danced.tune], every)[-1].holds
+
+    assert holds(followed(0.5, 0.4, -0.6), followed(0.1, 0.1, -0.2)) is None
+    assert holds(followed(*[0.5] * 5), followed(*[0.1] * 5)) is True
+    assert holds(followed(0.1, 0.1), followed(0.5, 0.0)) is False
 
 
 def test_the_decision_that_is_drawn_is_the_one_that_was_taken(danced: Danced, library: MoveLibrary):

@@ -1,9 +1,11 @@
 """P2 done again: takes, what is observed of them, methods on a robot's limits, and the page's parts."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from onbeat.errors import MetricError
+from onbeat.errors import MetricError, OnbeatError
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.dances import perform_dance
 from onbeat.formats.write import write_motion
@@ -104,6 +106,7 @@ def test_layers_are_lowered_the_finest_first_and_the_limit_is_where_it_is_enlarg
 def test_real_takes_are_observed_and_danced_where_nothing_can_be_simulated(tmp_path, monkeypatch):
     monkeypatch.setattr("onbeat.reproduce.p2_tried.why_not", lambda: "no engine")
     monkeypatch.setattr("onbeat.reproduce.p2_wish.why_not", lambda: "no engine")
+    monkeypatch.setattr("onbeat.reproduce.p2_takes.LONGEST", 4.0)
     for number, take in enumerate(troupe_takes(0, (1.0, 1.5), 1).takes):
         path = tmp_path / f"take_{number}.bvh"
         write_motion(take.motion, path)
@@ -133,3 +136,10 @@ def test_one_real_dance_that_nothing_can_be_made_of_says_both_reasons(tmp_path, 
     write_motion(perform_dance(DANCERS[0], "folk dance", 1.0, 1, np.random.default_rng(0)).motion[:5], path)
     with pytest.raises(Exception, match=r"nothing can be observed .* no robot can dance it"):
         PAPER.reproduce(Data(motions=(path,)), lambda share, what: None)
+
+
+def test_songs_are_refused_and_what_is_not_there_is_said_once(tmp_path):
+    with pytest.raises(OnbeatError, match=r"P2 hears no songs: leave out song\.wav"):
+        PAPER.reproduce(Data(songs=(Path("song.wav"),)), lambda share, what: None)
+    with pytest.raises(OnbeatError, match=r"^no file or folder"):
+        PAPER.reproduce(Data(motions=(tmp_path / "none",)), lambda share, what: None)

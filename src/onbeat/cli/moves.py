@@ -14,9 +14,34 @@ from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.errors import LibraryError
 
 moves_app = cyclopts.App(name="moves", help="Build, show, check and change motion libraries: clips and their joins.")
-for _name in ("verify", "remove", "merge"):
-    moves_app.command(f"onbeat.cli.moves_manage:{_name}_command", name=_name)
-moves_app.command("onbeat.cli.moves_fetch:fetch_command", name="fetch")
+# Named by path, so that they are imported when they are called; their help stands here, so that a list needs none.
+_LATER = {
+    "verify": (
+        "onbeat.cli.moves_manage:verify_command",
+        "Check a motion library: every checksum and every reference.\n\n"
+        "Exits with 1 and a line on stdout for each thing that is wrong.\n\n"
+        "Example: ``onbeat moves verify my_library``",
+    ),
+    "remove": (
+        "onbeat.cli.moves_manage:remove_command",
+        "Take recordings, with their mirror images, out of a motion library.\n\n"
+        'Example: ``onbeat moves remove my_library walk_01 "jump*"``',
+    ),
+    "merge": (
+        "onbeat.cli.moves_manage:merge_command",
+        "Make one motion library of several on the same body; no motion file is read again.\n\n"
+        "Example: ``onbeat moves merge monday tuesday -o week``",
+    ),
+    "fetch": (
+        "onbeat.cli.moves_fetch:fetch_command",
+        "Fetch motion capture that others have made free, or list what is known.\n\n"
+        "Its licence is shown first and kept with it. A download that was stopped goes on when it is run again. Where "
+        "it was put is printed on stdout; ``onbeat dance`` takes its name for ``--moves``.\n\n"
+        "Example: ``onbeat moves fetch cmu-dance``",
+    ),
+}
+for _name, (_path, _help) in _LATER.items():
+    moves_app.command(_path, name=_name, help=_help)
 Flag = cyclopts.Parameter(negative=())
 
 

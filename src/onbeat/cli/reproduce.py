@@ -18,10 +18,15 @@ from onbeat.reproduce.data import Data
 from onbeat.reproduce.document import results_document
 from onbeat.reproduce.paper import chosen
 from onbeat.reproduce.result import PaperResult, tally
-from onbeat.reproduce.run import COSTS, reproduce, write_results
+from onbeat.reproduce.run import COSTS, check_place, reproduce, write_results
 
 reproduce_app = cyclopts.App(name="reproduce", help="Do the papers' experiments again, beside what they print.")
-reproduce_app.command("onbeat.cli.reproduce_study:study_command", name="study")
+reproduce_app.command(
+    "onbeat.cli.reproduce_study:study_command",
+    name="study",
+    help="Ask people which motion looks more like the original, and test what they chose (2009, Table 2).\n\n"
+    "Example: ``onbeat reproduce study my_study``, then ``onbeat reproduce study my_study --table``",
+)
 
 Flag = Annotated[bool, cyclopts.Parameter(negative="")]
 Files = Annotated[list[Path] | None, cyclopts.Parameter(consume_multiple=True, negative=(), json_list=False)]
@@ -69,6 +74,7 @@ def reproduce_command(
         raise OnbeatError(f"--seed {seed}: give a whole number from 0 to 2^63 - 1")
     data = Data(tuple(motions or ()), tuple(songs or ()), quick, seed)
     keys = chosen(papers or ())
+    check_place(output)
     with warnings_as_lines(), Stages() as stages:
         results = reproduce(keys, data, _together(stages, keys), workers=WORKERS)
         write_results(output, results, quick=quick, seed=seed)

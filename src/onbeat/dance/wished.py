@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -30,8 +31,14 @@ TASTE, TASTED = 0.25, 1.0
 """Standard deviation of what a seed likes better or worse a second, and the seconds of a clip that it likes alike."""
 PAPER = 0.15
 """What a wish counts in the search of 2006, as a part of what it counts in ours."""
+SAME_BEAT = 0.07
+"""Seconds by which a beat of an earlier dance may be off to be the same."""
 WAY_IN, WAY_OUT, WAYS = 3.0, 3.0, 60
 """Seconds of a part of a library before and after what is kept, and of so many ways that join to it and from it."""
+
+
+class OtherBeatsWarning(UserWarning):
+    """A stretch is kept of a dance whose beats are others."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,9 +181,23 @@ def _stretches(wishes: Wishes, library: MoveLibrary, song: Song) -> tuple[Stretc
         known = [earlier for dance, earlier in read if dance == kept.dance]
         earlier = known[0] if known else read_earlier(kept.dance, library, song.beats, song.duration)
         read.append((kept.dance, earlier))
+        _tell_other_beats(kept, song)
         end = min(kept.to_s + MARGIN, song.duration, earlier.plan.duration)
         stretches.append(Stretch(kept, earlier, max(kept.from_s - MARGIN, 0.0), end))
     return _apart(stretches)
+
+
+def _tell_other_beats(kept: Kept, song: Song) -> None:
+    """Warn where the beats of a kept stretch are not those of the song: it may be of a dance to another."""
+    then = np.array([beat for beat in kept.dance.beats if kept.from_s <= beat <= kept.to_s])
+    near = np.abs(then[:, None] - song.beats).min(axis=1, initial=np.inf) < SAME_BEAT
+    if len(then) and near.mean() < 0.5:
+        warnings.warn(
+            f"{kept} is kept of a dance to other beats: {near.sum()} of its {len(then)} beats there are beats now; "
+            "the dance is to another song, or its beats were corrected",
+            OtherBeatsWarning,
+            stacklevel=2,
+        )
 
 
 def _apart(stretches: list[Stretch]) -> tuple[Stretch, ...]:

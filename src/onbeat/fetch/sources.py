@@ -141,5 +141,5 @@ def source_named(kind: Kind, name: str) -> Source:
     if name in known:
         return known[name]
     near = difflib.get_close_matches(name, known, 1)
-    guess = f"did you mean {near[0]}? " if near else ""
-    raise FetchError(f"no {kind} are known as {name!r}; {guess}There are {', '.join(known)}")
+    guess = f"did you mean {near[0]}? There are" if near else "there are"
+    raise FetchError(f"no {kind} are known as {name!r}; {guess} {', '.join(known)}")

@@ -22,7 +22,7 @@ from onbeat.reproduce.p1_figures import (
     matching_figure,
 )
 from onbeat.reproduce.p1_pictures import POSES, choice_figure, dance_figure
-from onbeat.reproduce.p1_songs import Tune, tunes
+from onbeat.reproduce.p1_songs import Tune, check_songs, tunes
 from onbeat.reproduce.p1_tables import Dances, beat_table, intensity_table, rhythm_table, shown
 from onbeat.reproduce.result import FigureResult, PaperResult
 
@@ -50,9 +50,10 @@ class MusicToDance:
         OnbeatError
             If a song or clip cannot be read, or the clips cannot fill a song.
         """
+        check_songs(data)
+        step(0.0, "joining clips")
+        library = open_library(data)  # before songs are heard, which takes longer: what is wrong is said at once
         songs = tunes(data, lambda share, what: step(HEARING * share, what))
-        step(HEARING, "joining clips")
-        library = open_library(data)
         every = _dances(songs[: FEW_DANCED if data.quick else DANCED], library, data.seed, step)
         step(HEARING + DANCING, "drawing")
         return PaperResult(

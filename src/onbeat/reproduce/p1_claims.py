@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from onbeat.reproduce.p1_dances import Danced
@@ -11,6 +12,9 @@ from onbeat.reproduce.result import Claim
 
 CLEAR = 3.0
 """Deviations above chance from which on stops follow the beats."""
+
+RARE = 0.05
+"""How often chance may do as well at most where a claim is said to hold."""
 
 
 def claims(tunes: Sequence[Tune], dances: Dances) -> tuple[Claim, ...]:
@@ -64,10 +68,27 @@ def _needed(dances: Dances) -> Claim:
     ours = [shown(median(dances[name], "intensity_pearson"), "r") for name in ("ours", "ours rhythm")]
     return Claim(
         "With the intensity component it is followed better than with rhythm alone.",
-        more > len(pairs) / 2,
+        _oftener(more, len(pairs)),
         f"As published, in {more} of {len(pairs)} songs (median {told[0]} with it, {told[1]} without); by onbeat, in "
-        f"{ours_more} ({ours[0]} and {ours[1]}).",
+        f"{ours_more} ({ours[0]} and {ours[1]}). Chance alone has it in so many or more of {len(pairs)} songs with "
+        f"{by_chance(more, len(pairs)):.0%}.",
     )
+
+
+def by_chance(more: int, songs: int) -> float:
+    """How often so many songs or more come out better if each is better or worse by the toss of a coin.
+
+    >>> by_chance(2, 3), by_chance(6, 6)
+    (0.5, 0.015625)
+    """
+    return sum(math.comb(songs, k) for k in range(more, songs + 1)) / 2**songs
+
+
+def _oftener(more: int, songs: int) -> bool | None:
+    """Whether it is better in most songs; None where so few songs do not tell it from chance."""
+    if more <= songs / 2:
+        return False
+    return True if by_chance(more, songs) < RARE else None
 
 
 def _more(pairs: Sequence[tuple[Danced, Danced]]) -> int:

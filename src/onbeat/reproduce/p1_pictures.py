@@ -77,7 +77,7 @@ def _lane(axes: Any, choice: Choice, library: MoveLibrary, lane: int, k: int, ah
         if end - begin >= 0.45 * GRID:
             clip = int(np.searchsorted(library.starts, path[begin], side="right")) - 1
             axes.text(
-                ahead[begin] + 0.04, base - 0.06, f"clip {clip + 1}", fontsize=6.5, color=SOFT, va="top", ha="left"
+                ahead[begin] + 0.04, base - 0.12, f"clip {clip + 1}", fontsize=6.5, color=SOFT, va="top", ha="left"
             )
     name = "danced" if k == choice.chosen else f"no. {k + 1}"
     axes.text(-0.06, base + 0.1, name, ha="right", va="center", fontsize=8, color=colour)

@@ -70,6 +70,14 @@ def found(tune: Tune, heard: Song) -> float:
     return f_measure(heard.beats[heard.beats >= 1.0], tune.truth.beats[tune.truth.beats >= 1.0], WITHIN)
 
 
+def check_songs(data: Data) -> None:
+    """Refuse songs that are not there, before anything is heard."""
+    for path in data.songs:
+        if not path.is_file():
+            what = f"{path} is a folder" if path.is_dir() else f"no song {path}"
+            raise OnbeatError(f"{what}; give audio files to --songs")
+
+
 def tunes(data: Data, step: Callable[[float, str], None]) -> list[Tune]:
     """The songs that were given, or the composed ones.
 
@@ -78,6 +86,7 @@ def tunes(data: Data, step: Callable[[float, str], None]) -> list[Tune]:
     OnbeatError
         If a song cannot be read or heard, or the beats beside one cannot.
     """
+    check_songs(data)
     seconds = QUICK if data.quick else SECONDS
     made: list[Callable[[], Tune]] = []
     if data.songs:
@@ -103,8 +112,6 @@ def _composed(number: int, seconds: float, seed: int) -> Tune:
 
 def _read(path: Path, seconds: float) -> Tune:
     """A song of somebody's; beats in ``NAME.beats`` beside it are taken as true."""
-    if not path.is_file():
-        raise OnbeatError(f"no song {path}; give audio files to --songs")
     audio = read_audio(path, seconds=seconds)
     beside = path.with_suffix(".beats")
     if not beside.exists():

@@ -35,8 +35,12 @@ class TemporalScaling:
         Raises
         ------
         OnbeatError
-            If real files can neither be observed nor be danced by the robot.
+            If songs are given, of which nothing is heard here, or real files can neither be observed nor be danced by
+            the robot.
         """
+        if data.songs:
+            raise OnbeatError(f"P2 hears no songs: leave out {data.songs[0]}; beats lie beside a take, NAME.beats")
+        data.motion_files()  # says what is wrong with the paths
         seen, unseen = _or_why(lambda: see(data, lambda share, what: step(SEEING * share, what)))
         found, untried = _or_why(lambda: tried(data, lambda share, what: step(SEEING + (0.95 - SEEING) * share, what)))
         if seen is None and found is None:
@@ -51,7 +55,8 @@ class TemporalScaling:
             paper_data="The Aizu-bandaisan dance, a Japanese folk dance, captured at 120 Hz at its original speed, at "
             "1.2× and at 1.5×, five times each; keyposes named by dance masters. The robot is HRP-2: the machine "
             "itself at 1.0×, in simulation at 1.2×.",
-            our_data=_our_data(seen, found),
+            our_data=("A first look only, with fewer dancers and takes. " if data.quick and data.embedded else "")
+            + _our_data(seen, found),
             differs=_differs(data, unseen, untried, found),
             claims=(*seen_claims(seen, unseen), *tried_claims(found, untried)),
             parts=(
@@ -122,6 +127,8 @@ def _differs(data: Data, unseen: str, untried: str, found: Tried | None) -> tupl
         "The robot is AIST's HRP-4C: the limits of speed of HRP-2, the paper's, are not public.",
         "“layers2007” is the paper's method, guarded: its layers go on to knots four beats apart and count from the "
         "joint's mean, for as printed they draw joints towards 0 radians. It stands beside, “as printed”.",
+        "“qp” is onbeat's own method: of all motions inside the limits the one nearest to the dance. “pollard2002” is "
+        "Pollard's filter; “uniform” plays all of the dance more slowly until nothing is past a limit.",
         f"The gains of Pollard's filter are not in the paper; {STIFFNESS:.0f} 1/s² is what errs least on arms of real "
         "dances (benchmarks/retime.py).",
         "Figs. 2 and 5 are drawings of the method without results, and are not drawn again.",

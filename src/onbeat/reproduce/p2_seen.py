@@ -145,7 +145,8 @@ def _figure_3(seen: Seen) -> FigureResult:
         "The mean rotation of the left shoulder at 1.0× (green), 1.2× (yellow) and 1.5× (light blue). Of one layer "
         "the curves are much alike, with two and three layers they differ more, and the fast one is a smoothed "
         "version of the normal one.",
-        f"The same of {first.takes.title}: takes {counts}; x, y and z of the quaternion's logarithm.",
+        f"The same of {first.takes.title}: takes {counts} (their numbers stand in brackets); x, y and "
+        "z of the quaternion's logarithm.",
         "What of this is so in numbers is in the next table.",
     )
 
@@ -171,8 +172,9 @@ def _means(seen: Seen) -> TableResult:
         "How the left shoulder's mean at a faster speed differs from that at the normal one",
         tuple(rows),
         heads,
-        "“Off by” is the root mean square of the angle between both means; “bends” is the second derivative by beats "
-        "beside that at the normal speed, under 1 where the curve is smoother. The control is merely played faster.",
+        "“Off by” is the root mean square of the angle between both means; “bends” is the second derivative by beats, "
+        "divided by that at the normal speed: under 1 where the curve is smoother. The control is merely played "
+        "faster.",
     )
 
 
@@ -185,7 +187,7 @@ def _figure_4(seen: Seen) -> FigureResult:
     )
     if told is not None:
         ours += f"; {told.precision:.0%} of them are keyposes, and {told.recall:.0%} of the {told.keyposes} keyposes "
-        ours += f"have one (at random phases {told.chance:.0%})"
+        ours += f"have one ({told.chance:.0%} where the valleys are moved at random)"
     return FigureResult(
         "Fig. 4",
         "Variance over the dance, the postures in its valleys, and the keyposes",
@@ -236,9 +238,10 @@ def _valleys(seen: Seen) -> TableResult:
         "Insight 2",
         "Valleys of all curves of variance that are keyposes, and keyposes that have such a valley",
         tuple(rows),
-        ("dancer", "paper", "ours: valleys that are", "keyposes that have", "by chance", "variance there", ""),
-        f"Within {TOLERANCE:g} beat. “By chance” is what the same valleys have of the keyposes at a random phase; "
-        "“variance there” is that of all takes at keyposes beside that at other times.",
+        ("dancer", "paper", "ours: valleys on keyposes", "keyposes with a valley", "by chance", "variance there", ""),
+        f"Within {TOLERANCE:g} beat. “By chance” is the share of the keyposes with a valley where the same valleys are "
+        "moved along the dance by a random amount; “variance there” is that of all takes at keyposes, divided by that "
+        "at other times.",
     )
 
 

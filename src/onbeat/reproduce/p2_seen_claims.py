@@ -89,7 +89,9 @@ def _insight_2(seen: Seen) -> Claim:
     each = [told for one in seen.every if (told := kept(one)) is not None and told.valleys]
     if not each:
         return Claim(SAID[4], None, "the keyposes are not known, or there is no valley")
-    right = sum(told.precision * told.valleys for told in each) / sum(told.valleys for told in each)
+    count = sum(told.valleys for told in each)
+    right = sum(told.precision * told.valleys for told in each) / count
     recall, chance = (float(np.mean([getattr(told, key) for told in each])) for key in ("recall", "chance"))
-    found = f"{right:.0%} of the valleys are keyposes; {recall:.0%} of the keyposes have one, {chance:.0%} by chance"
+    found = f"{right:.0%} of the {count} valleys are keyposes; {recall:.0%} of the keyposes have one, "
+    found += f"{chance:.0%} by chance"
     return Claim(SAID[4], right > 0.5 and recall > 2 * chance, found + f" ({len(each)} dancers)" * (len(each) > 1))

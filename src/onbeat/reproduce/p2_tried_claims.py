@@ -13,9 +13,9 @@ from onbeat.retime.measures import Measures
 FILTER = "pollard2002"
 SAID = (
     "The method keeps the limits of angle and of angular velocity (Eqs. 13 and 14)",
-    "It keeps more details than Pollard's filter (Fig. 8, b.1)",
+    "The method keeps more details than Pollard's filter (Fig. 8, b.1)",
     "Where limits are past, Pollard's filter runs at one constant speed; the method does not (Fig. 8, b.2)",
-    "It reproduces keyposes that Pollard's filter cannot clearly reproduce",
+    "The method reproduces keyposes that Pollard's filter cannot clearly reproduce",
     "Pollard's filter accelerates more sharply, by which a robot may fall",
     "At the original speed the robot imitates the dance stably (Fig. 7)",
     "At 1.2× the zero-moment point stays inside and the robot dances to the end, in simulation (Fig. 9)",

@@ -34,7 +34,7 @@ def valley_figure(seen: Observed) -> Any:
         panel.set_title(title, fontsize=9, loc="left")
     for panel, title, beats, colour in zip(axes[2:], *_postures(seen), strict=True):
         _pictures(panel, seen, beats, colour)
-        panel.set_title(title, fontsize=9, loc="left")
+        panel.set_title(title, fontsize=9, loc="left", pad=10)  # above the marks
     every = seen.found.repetitions.beats
     axes[-1].set_xlim(every[0] - 0.35, every[-1] + 0.35)
     axes[-1].set_xlabel("beat")

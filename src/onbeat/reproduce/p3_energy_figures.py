@@ -60,7 +60,7 @@ def keypose_figure(danced: Danced, found: Keyposes, title: str) -> Any:
                 axes.axvline(time, color=KEYPOSE, lw=1.6, zorder=2)
     _number(rows[0], shown, danced)
     rows[0].set_title(title, fontsize=10, pad=18)
-    rows[1].set_xlabel("seconds")
+    rows[1].set_xlabel("time [s]")
     _pictures(rows[2], danced, shown, slots, "found")
     _pictures(rows[3], danced, window.truth, slots, "by the book")
     return figure
@@ -69,7 +69,7 @@ def keypose_figure(danced: Danced, found: Keyposes, title: str) -> Any:
 def _draw_energy(axes: Any, name: str, times: Times, curve: Array, window: Window) -> None:
     part = (times >= window.start) & (times <= window.end)
     axes.plot(times[part], curve[part], color=WORLD if name == "global" else BODY, lw=1.5, zorder=3)
-    axes.set(xlim=(window.start, window.end), ylim=(0, None), ylabel=f"{name}\nenergy")
+    axes.set(xlim=(window.start, window.end), ylim=(0, None), ylabel=f"{name} energy\n[its mean]")
 
 
 def _draw_beats(axes: Any, beats: Times, window: Window) -> None:
@@ -127,7 +127,7 @@ def weight_figure(danced: Danced) -> Any:
             _draw_energy(axes, name, energy.times, curve, window)
             _draw_beats(axes, danced.beats, window)
         grid[2 * number].set_title(f"weights {title}", fontsize=9, loc="left")
-    grid[-1].set_xlabel("seconds; dotted: beats")
+    grid[-1].set_xlabel("time [s]; dotted: beats")
     return figure
 
 

@@ -101,11 +101,11 @@ def recognition_tables(found: Found) -> tuple[TableResult, ...]:
     remarks = (
         "At full rank the tensor is the nearest neighbour by elements of the body. Pieces of a dance are known again "
         "whoever dances them; who it is depends on how alike a dancer's cycles are, and on the body, which is another "
-        "each time above 0. Of the paper's eight nobody knows it.",
-        "As published a probe is known if it is within 5% of the distance at which another cycle of the same lay. "
+        "each time above 0. How alike the cycles of the paper's eight are nobody knows.",
+        "As published a probe counts as known if its distance is within 5% of that of another cycle of the same. "
         "Hardly anything is, so that what is new is found; what that costs Table 5 shows.",
-        "As published with 12%, learned by ours. Only what is taken for known and named rightly counts. That ε "
-        "turns away most of what is known, and is set by hand.",
+        "As published with 12% in place of 5%; “learned” is ours. Only what is taken for known and named rightly "
+        "counts. So narrow a width turns away most of what is known; it is set by hand.",
     )
     draws = len(next(iter(found.values())))
     times = (
@@ -146,7 +146,7 @@ def recognition_claims(found: Found) -> tuple[Claim, ...]:
             (
                 "It finds tasks and people that are new",
                 ("new_task", "new_person"),
-                "; but so it takes most of what is known, see the next",
+                "; but most of what is known is taken for new, too: see the next",
             ),
             (
                 "It tells known tasks, of known people and of new ones",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -62,6 +63,25 @@ def reproduce_one(key: str, data: Data, step: Callable[[float, str], None]) -> P
     step(0.0, "")
     with threadpool_limits(1, "blas"):  # products of matrices on more threads differ in their last bits
         return paper(key).reproduce(data, step)
+
+
+def check_place(folder: str | Path) -> None:
+    """Refuse a folder into which nothing can be written: said before the work, not after it; nothing is made.
+
+    Raises
+    ------
+    OnbeatError
+        If it is a file or lies in one, or there is no right to write there.
+    """
+    place = Path(folder)
+    try:
+        there = next(one for one in (place, *place.absolute().parents) if one.exists())
+    except OSError as error:
+        raise OnbeatError(f"cannot write into {place}: {error.strerror or error}; choose another folder") from None
+    if not there.is_dir():
+        raise OnbeatError(f"cannot write into {place}: {there} is not a folder; choose another folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise OnbeatError(f"cannot write into {place}: no right to write in {there}; choose another folder")
 
 
 def write_results(

@@ -219,6 +219,8 @@ def serve_study(folder: Path, host: str = "127.0.0.1", port: int = PORT, said: C
 
 
 def _bound(host: str, port: int) -> socket.socket:
+    if not 0 <= port <= 65535:  # others are taken modulo 65,536 by some systems
+        raise OnbeatError(f"--port {port}: give a number from 1 to 65535, or 0 for any that is free")
     try:
         family, kind, _, _, place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
         bound = socket.socket(family, kind)

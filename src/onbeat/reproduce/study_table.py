@@ -122,7 +122,7 @@ def _told(found: Verdict) -> str:
 
 
 def _chance(p: float) -> str:
-    return f"p = {p:.2g}" if p >= 1e-4 else f"p < {10.0 ** np.ceil(np.log10(max(p, 1e-300))):.0e}"
+    return f"p = {p:.2g}" if p >= 1e-4 else f"p < 1e{np.ceil(np.log10(max(p, 1e-300))):.0f}"
 
 
 def _more(found: Outcome, people: int) -> list[Row]:

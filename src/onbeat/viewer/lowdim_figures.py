@@ -155,7 +155,7 @@ def _labels(places: np.ndarray) -> list[tuple[str, np.ndarray]]:
 
 
 def _named(axes: Any, first: int, second: int) -> None:
-    axes.set(xlabel=f"dimension {first + 1} [body sizes]", ylabel=f"dimension {second + 1}")
+    axes.set(xlabel=f"dimension {first + 1} [body sizes]", ylabel=f"dimension {second + 1} [body sizes]")
     axes.set_aspect("equal", "datalim")
     axes.grid(alpha=0.25)
 
