@@ -88,6 +88,7 @@ class LiveStage implements Listener {
       connected: this.connected,
       hellos: this.hellos,
       time: this.time,
+      posed: this.stage?.posed ?? -1,
       music: this.music,
       delay: this.playhead.delay,
       poses: poses.count,
