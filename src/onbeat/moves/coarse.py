@@ -18,7 +18,7 @@ from onbeat.moves.minima import Found, more
 from onbeat.moves.wanted import wanted_limit
 
 # In shares of the limit's square; found on two archives (benchmarks/transitions.py tells what is missed).
-COARSE = Care(above=0.6, still=0.3, moving=1.0, guess=0.2, neighbours=1.1, probe=0.15)
+COARSE = Care(above=0.45, still=0.1, moving=1.0, guess=0.22, neighbours=1.1, probe=0.16)
 APPROXIMATE = Care(above=0.5, still=0.1, moving=1.0, guess=0.18, neighbours=0.7, probe=0.1)
 BINS = 64  # steps in which candidates are ordered by their guess
 
