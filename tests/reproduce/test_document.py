@@ -19,5 +19,5 @@ def test_results_come_back():
 
 @pytest.mark.parametrize("data", [b"", b"[]", b'{"version": 1}', b'{"version": "1"}'])
 def test_what_is_no_document_is_refused(data: bytes):
-    with pytest.raises(OnbeatError, match=r"results\.json: no results"):
+    with pytest.raises(OnbeatError, match=r"results\.json is not a document of results"):
         ResultsDocument.from_json(data)

@@ -8,6 +8,7 @@ import msgspec
 from msgspec import UNSET, UnsetType
 
 from onbeat.errors import PlanError
+from onbeat.keyposes.decoding import decoded
 
 VERSION = 1
 
@@ -64,14 +65,4 @@ class DanceDocument(msgspec.Struct, frozen=True):
         Traceback (most recent call last):
         onbeat.errors.PlanError: dance.json: version 9; this onbeat reads version 1
         """
-        try:
-            found = msgspec.json.decode(data, type=_Version).version
-            if found != VERSION:
-                raise PlanError(f"{source}: version {found}; this onbeat reads version {VERSION}")
-            return msgspec.json.decode(data, type=cls)
-        except msgspec.DecodeError as error:
-            raise PlanError(f"{source}: not a dance document: {error}; write one with `onbeat dance`") from None
-
-
-class _Version(msgspec.Struct):
-    version: int
+        return decoded(data, cls, VERSION, source, "a dance document, as `onbeat dance` writes it", PlanError)

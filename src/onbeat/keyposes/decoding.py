@@ -1,4 +1,4 @@
-"""Reading JSON documents of a version: ``decoded``, which all documents of keyposes share."""
+"""Reading JSON documents of a version: ``decoded``, which documents of keyposes, dances and results share."""
 
 from __future__ import annotations
 

@@ -8,6 +8,7 @@ from typing import Annotated
 import msgspec
 
 from onbeat.errors import OnbeatError
+from onbeat.keyposes.decoding import decoded
 from onbeat.reproduce.page import anchor, page_name
 from onbeat.reproduce.result import FigureResult, PaperResult, TableResult
 
@@ -94,17 +95,9 @@ class ResultsDocument(msgspec.Struct, frozen=True):
         Traceback (most recent call last):
         onbeat.errors.OnbeatError: results.json: version 9; this onbeat reads version 1
         """
-        try:
-            found = msgspec.json.decode(data, type=_Version).version
-            if found != VERSION:
-                raise OnbeatError(f"{source}: version {found}; this onbeat reads version {VERSION}")
-            return msgspec.json.decode(data, type=cls)
-        except msgspec.DecodeError as error:
-            raise OnbeatError(f"{source}: no results: {error}; make them with `onbeat reproduce`") from None
-
-
-class _Version(msgspec.Struct):
-    version: int
+        return decoded(
+            data, cls, VERSION, source, "a document of results, as `onbeat reproduce` writes it", OnbeatError
+        )
 
 
 def results_document(results: Sequence[PaperResult], *, quick: bool = False, seed: int = 0) -> ResultsDocument:
