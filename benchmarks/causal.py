@@ -5,10 +5,11 @@ TAB bar position); where its README.md has a table ``| NAME | set | category |``
 
 The sound is pushed in blocks of 10 ms at the file's own rate. Beats are scored twice: by the time they state, and by
 the time at which they were said (``emitted_at``: the analysis window counts). F, CMLt, AMLt and downbeat F are
-mir_eval's, the first 5 s left out. That hides the start, so *lock* is given apart, for the steady pieces: the time from
-the first true beat to the first of four true beats in a row that are each said within 70 ms, with none said between;
-*lock** allows half, double and off-beats. *Next* is the error of the beat foretold one beat ahead, at the moment a beat
-is said. *Re-lock* is the lock after the tempo steps by 30 % at a downbeat.
+mir_eval's, the first 5 s left out; *meter* is the share of the beats after them at which the bar's length is right.
+That hides the start, so *lock* is given apart, for the steady pieces: the time from the first true beat to the first of
+four true beats in a row that are each said within 70 ms, with none said between; *lock** allows half, double and off-
+beats. *Next* is the error of the beat foretold one beat ahead, at the moment a beat is said. *Re-lock* is the lock
+after the tempo steps by 30 % at a downbeat.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ COLUMNS = (
     "lock*",
     "next",
     "ms",
+    "meter",
 )
 STEADY = 0.01  # variation of the beat intervals, up to which a piece is steady
 PEERS = """Peers online on the same 44 pieces (F / CMLt / AMLt): madmom .824 / .715 / .816, BeatNet .633 / .424 / .516
@@ -49,7 +51,7 @@ aubio 1.9 / 6.2, 1, 8.3; BeatNet 4.2 / 91, 3, -  (measured elsewhere, MUSIC.md)"
 
 
 def heard(samples: np.ndarray, rate: int, learned: bool) -> tuple[np.ndarray, np.ndarray, float]:
-    """Beats (B, 4): stated time, time said, downbeat, foretold next beat; and CPU ms per frame of 10 ms."""
+    """Beats (B, 5): stated time, time said, downbeat, foretold next beat, meter; and CPU ms per frame of 10 ms."""
     tracker = CausalTracker(rate, learned=learned)
     block = round(0.01 * rate)
     rows, began = [], time.process_time()
@@ -57,8 +59,8 @@ def heard(samples: np.ndarray, rate: int, learned: bool) -> tuple[np.ndarray, np
         for beat in tracker.push(samples[start : start + block]):
             foretold = tracker.next_beats(2)
             following = foretold[foretold > beat.time + 15.0 / tracker.tempo][0]
-            rows.append((beat.time, beat.emitted_at, beat.downbeat, following))
-    return np.array(rows).reshape(-1, 4), 1000.0 * (time.process_time() - began) / (len(samples) / block)
+            rows.append((beat.time, beat.emitted_at, beat.downbeat, following, tracker.meter))
+    return np.array(rows).reshape(-1, 5), 1000.0 * (time.process_time() - began) / (len(samples) / block)
 
 
 def lock(reference: np.ndarray, said: np.ndarray, run: int = 4, within: float = 0.07) -> float:
@@ -94,6 +96,14 @@ def agreement(reference: np.ndarray, said: np.ndarray) -> list[float]:
     return [mir_eval.beat.f_measure(reference, said), correct, allowed]
 
 
+def meter_right(table: np.ndarray, beats: np.ndarray) -> float:
+    """Share of the beats said after 5 s that are counted in the most frequent bar of the annotation."""
+    bars = np.diff(np.flatnonzero(table[:, 1] == 1))
+    meter = np.bincount(bars).argmax() if len(bars) else table[:, 1].max()
+    late = beats[beats[:, 0] > 5.0, 4]
+    return float(np.mean(late == meter)) if len(late) else 0.0
+
+
 def scores(path: Path, learned: bool) -> list[float]:
     """One row of the table."""
     table = np.loadtxt(path.with_suffix(".beats"), ndmin=2)
@@ -114,6 +124,7 @@ def scores(path: Path, learned: bool) -> list[float]:
         *locks,
         error if steady else np.nan,
         cost,
+        meter_right(table, beats),
     ]
 
 
@@ -129,7 +140,7 @@ def line(rows: np.ndarray) -> str:
         ]
     else:
         parts += ["    –     –     –"]
-    return "  ".join([*parts, f"{rows[:, 12].mean():.3f}"])
+    return "  ".join([*parts, f"{rows[:, 12].mean():.3f}", f"{rows[:, 13].mean():.2f}"])
 
 
 def interval(values: np.ndarray) -> str:

@@ -18,6 +18,8 @@ LEAST = np.array([0.1, 0.5])  # deviation taken for a signal
 BIAS = -0.4  # log odds of a beat with mean cues, over those of any beat
 LEARNED = 0.6  # weight of the learned activation's say
 BOUND = 2.5  # of the log odds from one beat
+MIDDLE = 0.3  # how often the middle of a bar of four or six sounds like a downbeat: kick and bass are there, too
+PRIOR_BEATS = 40.0  # after so many the prior on meters counts once more: chance agreements do not add up to a meter
 
 
 def _chances() -> tuple[Array, Array, Array]:
@@ -47,17 +49,28 @@ class BarFilter:
     ...     bars.step(2.0 if beat % 3 == 1 else -1.0)
     >>> bars.meter, bars.position
     (3, 0)
+
+    A kick on one and three, the harder one on one, is no bar of two:
+
+    >>> for beat in range(41):
+    ...     bars.step((2.5, -1.0, 1.2, -1.0)[(beat - 1) % 4])
+    >>> bars.meter, bars.position
+    (4, 0)
     """
 
     def __init__(self) -> None:
         self._positions, self._prior, self._chance = _chances()
         self._meters = np.repeat(METERS, METERS)
+        middle = (self._meters > 2) & (2 * self._positions == self._meters)
+        self._downbeat = np.where(self._positions == 0, 1.0, np.where(middle, MIDDLE, 0.0))
+        self._usual = np.repeat(METER_PRIOR, METERS) ** (1.0 / PRIOR_BEATS)
         self._share = self._prior.copy()
         self.position, self.meter = 0, 4
 
     def step(self, log_odds: float) -> None:
         """Go on by a beat; ``log_odds`` is how much the beat before sounded like a downbeat."""
-        weighed = self._share * np.where(self._positions == 0, np.exp(log_odds), 1.0)
+        heard = 1.0 + self._downbeat * (np.exp(log_odds) - 1.0)
+        weighed = self._share * heard * self._usual
         self._share = (weighed / weighed.sum()) @ self._chance
         state = int(self._share.argmax())
         self.position, self.meter = int(self._positions[state]), int(self._meters[state])
