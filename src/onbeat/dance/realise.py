@@ -20,6 +20,7 @@ from onbeat.motion.body import Body
 from onbeat.motion.contacts import SIDES, foot_contacts
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.motion import Motion
+from onbeat.motion.soles import on_soles
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,8 @@ def realise(
 ) -> Realised:
     """Dance a plan: its moves turned and shifted to go on from each other, blended at the joins, feet kept planted.
 
-    Outside the windows of the joins the frames are the clips' own, moved as a whole on the ground; the first pose
-    faces +Y and the dance's ground is centred on the origin.
+    Outside the windows of the joins the frames are the clips' own, moved as a whole on the ground, but for feet that
+    would sink into the floor; the first pose faces +Y and the dance's ground is centred on the origin.
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ def realise(
     fps : frames per second of the dance; it has ``round(plan.duration * fps)`` frames.
     warp : from dance seconds to plan seconds, never going back and from 0 to the duration; none keeps the plan's time.
     blend : how joins are blended, a name in ``BLENDS``.
-    plant : whether feet that rest on the floor are kept in place around joins.
+    plant : whether feet that rest on the floor are kept in place around joins, and out of the floor everywhere.
     steer : radians by which a join may turn the dance to keep the dancer on the stage; 0 for none.
     standing : for each clip, (F, 2) true where the left, right foot rests; found in the clips where not given.
     peaks : (J,) rad/s, the fastest each joint's bone may turn in a join, such as the library's own peaks; where not
@@ -102,6 +103,7 @@ def realise(
     steps = steps_between(standing_now, soles, turned, moves, windows, times)
     if plant:
         pose = plant_feet(body, pose, shown_world, steps, moves, windows, times)
+        pose = Pose(on_soles(body, pose.rotations, pose.roots), pose.roots)
     roots = pose.roots - _middle(pose.roots)
     motion = Motion(sources.skeleton, pose.rotations, roots, fps, name="dance")
     blended = tuple(zip(windows.starts.tolist(), windows.ends.tolist(), strict=True))
