@@ -120,6 +120,28 @@ def test_an_export_has_the_dances_name_and_lies_under_none_of_the_users(client: 
     assert not (home / "project" / "dances" / made["id"]).exists()
 
 
+@pytest.mark.parametrize(
+    ("order", "why"),
+    [
+        ({"format": "mp4", "film": {"width": 1281}}, "even numbers"),
+        ({"format": "mp4", "film": {"fps": 0}}, "pictures a second"),
+        ({"format": "glb", "film": {}}, "format mp4"),
+    ],
+)
+def test_a_video_that_cannot_be_is_refused(client: TestClient, dance: dict[str, Any], order: dict[str, Any], why: str):
+    told = client.post(f"/api/dances/{dance['id']}/exports", json=order).json()
+    assert told["field"] == "film"
+    assert why in told["error"]
+
+
+def test_a_video_is_kept_as_it_was_ordered_and_named_after_it(client: TestClient, dance: dict[str, Any]):
+    film = {"width": 1080, "height": 1920, "fps": 30.0, "flash": True}
+    made = client.post(f"/api/dances/{dance['id']}/exports", json={"format": "mp4", "film": film}).json()
+    assert (made["film"], made["file"]) == (film, f"{dance['name']}, 1080x1920, flashes.mp4")
+    usual = client.post(f"/api/dances/{dance['id']}/exports", json={"format": "mp4"}).json()
+    assert usual["file"] == f"{dance['name']}.mp4"
+
+
 def test_clips_are_marked_and_unmarked(client: TestClient):
     shown = client.get("/api/libraries/troupe").json()
     assert [clip["name"] for clip in shown["clips"]] == ["bow", "turn"]
@@ -135,7 +157,7 @@ def test_clips_are_marked_and_unmarked(client: TestClient):
 def test_a_library_is_built_of_motions_of_the_project(client: TestClient):
     assert client.post("/api/libraries", json={"name": "mine", "motions": []}).json()["field"] == "motions"
     assert client.post("/api/libraries", json={"name": "mine", "motions": ["motion-99"]}).status_code == 404
-    walk = client.post("/api/motions?name=walk.bvh", content=b"HIERARCHY").json()[0]
+    walk = client.post("/api/motions?name=walk.bvh", content=b"HIERARCHY").json()["motions"][0]
     made = client.post("/api/libraries", json={"name": " mine\n", "motions": [walk["id"], walk["id"]]}).json()
     assert (made["name"], made["motions"]) == ("mine", [walk["id"]])
     ready = next(one for one in settled(client)["libraries"] if one["id"] == made["id"])

@@ -50,6 +50,7 @@ def test_beats_that_were_put_right_are_kept_until_what_was_heard_is_wanted_again
     shown = client.put("/api/songs/song/beats", json=told).json()
     assert shown["beats"] == sorted(told["beats"])
     assert (shown["edited"], shown["meter"]) == (True, 3)
+    assert shown["heard_beats"] == BEATS.tolist()
     assert shown["tempo"] == pytest.approx(60, abs=1)
     assert shown["chord_change"][2] == pytest.approx(4 / 19, abs=1e-3)  # that of the beat heard at 3.0 s
     assert client.get("/api/songs/song").json() == shown

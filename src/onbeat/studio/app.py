@@ -13,6 +13,7 @@ from starlette.routing import Route
 
 from onbeat.errors import OnbeatError
 from onbeat.studio import dances, exports, libraries, motions, songs
+from onbeat.studio.again import try_again
 from onbeat.studio.answers import answer, refusal, refused
 from onbeat.studio.guard import Guard
 from onbeat.studio.page import page
@@ -53,6 +54,7 @@ def _routes() -> list[Route]:
         Route("/api/project", _project, methods=["GET"]),
         Route("/api/events", _events, methods=["GET"]),
         Route("/api/jobs/{id}/cancel", _cancel, methods=["POST"]),
+        Route("/api/{shelf}/{id}/again", try_again, methods=["POST"]),
         Route("/api/songs", songs.take_song, methods=["POST"]),
         Route("/api/songs/{id}", songs.show_song, methods=["GET"]),
         Route("/api/songs/{id}", songs.remove_song, methods=["DELETE"]),

@@ -14,17 +14,14 @@ import zlib
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
-from typing import IO
+from typing import IO, NamedTuple
 
 from onbeat.errors import OnbeatError
-from onbeat.formats.read import motion_files
-from onbeat.formats.registry import FORMATS
 
 BESIDE = (".asf", ".toml")
 """Endings of what motion files need beside them."""
-MOTIONS = tuple(dict.fromkeys(known.suffix for known in FORMATS if known.read))
-"""Endings of motion files."""
 MOST_FILES, MOST_ENTRIES = 2000, 20000
 RATIO, FREE = 200, 10 << 20
 """By how much a file may have been packed, counted from so many bytes on."""
@@ -33,6 +30,23 @@ TAIL, DIRECTORY = 66_000, 8 << 20
 """Bytes at the end in which the table of contents is told of, and those that it may have."""
 DEEPEST = 16
 """Folders in folders."""
+
+
+# Readers are imported where they are asked: a studio opens without them.
+
+
+@cache
+def motion_endings() -> tuple[str, ...]:
+    """Endings of motion files.
+
+    Examples
+    --------
+    >>> motion_endings()[:3]
+    ('.bvh', '.amc', '.c3d')
+    """
+    from onbeat.formats.registry import FORMATS
+
+    return tuple(dict.fromkeys(known.suffix for known in FORMATS if known.read))
 
 
 @dataclass
@@ -50,8 +64,15 @@ def is_archive(path: Path) -> bool:
         return file.read(4) in (b"PK\x03\x04", b"PK\x05\x06")
 
 
-def unpacked(archive: Path, folder: Path, largest: int) -> list[tuple[Path, str]]:
-    """The motion files of an archive, written into a folder, and their names in the archive.
+class Found(NamedTuple):
+    """Motion files with the names that they had, and the names of what is no motion and beside none."""
+
+    files: list[tuple[Path, str]]
+    passed_over: list[str]
+
+
+def unpacked(archive: Path, folder: Path, largest: int) -> Found:
+    """The motion files of an archive, written into a folder, and what else is in it.
 
     Parameters
     ----------
@@ -65,7 +86,10 @@ def unpacked(archive: Path, folder: Path, largest: int) -> list[tuple[Path, str]
         If it is damaged, locked by a password, too large when unpacked, or holds names that lead out of it, links or no
         motion.
     """
+    from onbeat.formats.read import motion_files
+
     told: dict[Path, str] = {}
+    other: list[str] = []
     _check_directory(archive)
     try:
         with zipfile.ZipFile(archive) as opened:
@@ -79,12 +103,17 @@ def unpacked(archive: Path, folder: Path, largest: int) -> list[tuple[Path, str]
                     path = _place(folder, entry.filename, left)
                     _unpack(opened, entry, path, left)
                     told[path] = entry.filename
+                elif not _is_hidden(entry):
+                    other.append(entry.filename)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError) as error:
         raise OnbeatError(f"the archive cannot be read: {error}; pack it again without a password") from None
     found = [file for file in motion_files(folder) if file in told] if told else []
+    for path in [path for path in told if path not in found and not _is_used(path, found)]:
+        path.unlink()
+        other.append(told.pop(path))
     if not found:
-        raise OnbeatError(f"no motion files in the archive; expected some of {', '.join(MOTIONS)}")
-    return [(file, told[file]) for file in found]
+        raise OnbeatError(f"no motion files in the archive; expected some of {', '.join(motion_endings())}")
+    return Found([(file, told[file]) for file in found], sorted(other))
 
 
 def plain_name(name: str) -> str:
@@ -125,10 +154,23 @@ def _check_name(entry: zipfile.ZipInfo) -> None:
         raise OnbeatError(f"the archive holds folders in folders, {len(parts)} deep; {DEEPEST} are taken")
 
 
-def _is_wanted(entry: zipfile.ZipInfo) -> bool:
+def _is_hidden(entry: zipfile.ZipInfo) -> bool:
+    """Whether nobody means it to be seen: folders, and what systems leave in archives."""
     parts = entry.filename.replace("\\", "/").split("/")
-    hidden = any(part.startswith(".") or part == "__MACOSX" for part in parts)
-    return not entry.is_dir() and not hidden and entry.filename.lower().endswith((*MOTIONS, *BESIDE))
+    return entry.is_dir() or any(part.startswith(".") or part == "__MACOSX" for part in parts)
+
+
+def _is_wanted(entry: zipfile.ZipInfo) -> bool:
+    return not _is_hidden(entry) and entry.filename.lower().endswith((*motion_endings(), *BESIDE))
+
+
+def _is_used(path: Path, motions: Sequence[Path]) -> bool:
+    """Whether a file that is no motion is a skeleton or a roles file of one."""
+    from onbeat.motion.role_file import roles_beside
+
+    if path.suffix == ".asf":
+        return any(motion.suffix == ".amc" and motion.parent == path.parent for motion in motions)
+    return any(roles_beside(motion) == path for motion in motions)
 
 
 def _place(folder: Path, name: str, left: _Left) -> Path:
@@ -166,7 +208,7 @@ def _copied(source: IO[bytes], file: IO[bytes], entry: zipfile.ZipInfo, left: _L
     return size
 
 
-def one_file(upload: Path, folder: Path, name: str) -> list[tuple[Path, str]]:
+def one_file(upload: Path, folder: Path, name: str) -> Found:
     """A single motion file, moved into a folder under a plain name.
 
     Raises
@@ -175,14 +217,31 @@ def one_file(upload: Path, folder: Path, name: str) -> list[tuple[Path, str]]:
         If its ending is that of no motion file.
     """
     if name.lower().endswith(BESIDE):
+        if name.lower().endswith(".toml") and not is_roles_file(name):
+            raise OnbeatError(
+                f"{name!r} is nothing that is taken here; roles of joints are told by a file called roles.toml, "
+                "or NAME.roles.toml for one motion file"
+            )
         raise OnbeatError(f"{name!r} is no motion by itself: drop it together with its motion files, or in one .zip")
-    if not name.lower().endswith(MOTIONS):
-        raise OnbeatError(
-            f"{name!r} has the ending of no motion file; expected one of {', '.join(MOTIONS)}, or a .zip of them"
-        )
+    if not name.lower().endswith(motion_endings()):
+        endings = ", ".join(motion_endings())
+        raise OnbeatError(f"{name!r} has the ending of no motion file; expected one of {endings}, or a .zip of them")
     path = folder / plain_name(name)
     shutil.move(upload, path)
-    return [(path, name)]
+    return Found([(path, name)], [])
+
+
+def is_roles_file(name: str) -> bool:
+    """Whether a file is called as one that tells roles.
+
+    Examples
+    --------
+    >>> [is_roles_file(name) for name in ("roles.toml", "Walk.roles.toml", "limits.toml")]
+    [True, True, False]
+    """
+    from onbeat.motion.role_file import FOLDER_FILE, SUFFIX
+
+    return name.lower() == FOLDER_FILE or name.lower().endswith(SUFFIX)
 
 
 def shown_names(found: Sequence[tuple[Path, str]]) -> list[str]:

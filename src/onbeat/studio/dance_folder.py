@@ -16,9 +16,10 @@ from onbeat.dance.document import DanceDocument, MoveDocument
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
 from onbeat.formats.npz import read_npz, write_npz
+from onbeat.keyposes.extract import Keyposes, find_keyposes
 from onbeat.motion import Motion
 from onbeat.music.song import Section, Song
-from onbeat.viewer.contract import PageData
+from onbeat.viewer.contract import GraphData, PageData
 
 SCENE = "scene.json"
 SHOWN, ROOT = ("dance.npz", "dance.json", "song.json"), ("root.npz", "root.json", "root_song.json")
@@ -42,6 +43,14 @@ class StoredDance:
         except OSError as error:
             raise OnbeatError(f"the dance is damaged: {error.strerror or error}; dance it again") from None
 
+    @property
+    def keyposes(self) -> Keyposes | None:
+        """Its keyposes on the beats it dances to; None where it is too short to have any."""
+        try:
+            return find_keyposes(self.motion, self.song.beats)
+        except OnbeatError:
+            return None
+
     def write(self, folder: Path, names: tuple[str, str, str] = SHOWN) -> None:
         """Write it into a folder."""
         write_npz(self.motion, folder / names[0])
@@ -52,6 +61,20 @@ class StoredDance:
 def write_scene(folder: Path, page: PageData) -> None:
     """Write what the page shows."""
     write_atomically(folder / SCENE, msgspec.json.encode(page))
+
+
+class _Drawn(msgspec.Struct, frozen=True):
+    """Of a scene the motion graph."""
+
+    graph: GraphData | None = None
+
+
+def graph_of(folder: Path) -> GraphData | None:
+    """The motion graph that the dance in a folder goes through; None where it was drawn without."""
+    try:
+        return msgspec.json.decode((folder / SCENE).read_bytes(), type=_Drawn).graph
+    except (OSError, msgspec.DecodeError):
+        return None
 
 
 def faster_song(song: Song, speed: float) -> Song:

@@ -12,6 +12,8 @@ from onbeat.studio.wire import DanceItem, ExportItem, FormatItem
 
 G1 = "g1"
 """The robot that has formats of its own."""
+FILM = "mp4"
+"""The format of videos, which may be had in other sizes and with flashes."""
 
 
 class ExportFormat(NamedTuple):
@@ -28,7 +30,7 @@ class ExportFormat(NamedTuple):
 FORMATS = (
     ExportFormat("glb", ".glb", "GLB: Blender, Unity, Windows, the web"),
     ExportFormat("bvh", ".bvh", "BVH: any animation program"),
-    ExportFormat("mp4", ".mp4", "MP4: a video with the song", module="av", extra="video"),
+    ExportFormat(FILM, ".mp4", "MP4: a video with the song", module="av", extra="video"),
     ExportFormat("html", ".html", "HTML: the page with the song, to send to others"),
     ExportFormat("npz", ".npz", "NPZ: onbeat's own, exact to the last bit"),
     ExportFormat("usd", ".usdc", "USD: Omniverse, Houdini, Maya", module="pxr", extra="usd"),

@@ -7,9 +7,9 @@ from starlette.responses import Response
 
 from onbeat.errors import OnbeatError
 from onbeat.studio.answers import FieldError, answer, file_answer, order
-from onbeat.studio.export_formats import exported_file, format_for
+from onbeat.studio.export_formats import FILM, exported_file, format_for
 from onbeat.studio.studio import Studio
-from onbeat.studio.wire import DanceItem, ExportItem, ExportOrder
+from onbeat.studio.wire import DanceItem, ExportItem, ExportOrder, FilmOrder
 
 _FORBIDDEN = '/\\:*?"<>|'
 
@@ -23,11 +23,12 @@ async def order_export(request: Request) -> Response:
         chosen = format_for(told.format, dance)
     except OnbeatError as error:
         raise FieldError("format", str(error)) from None
+    film = _film(told)
     with studio.folder.change() as document:
         id = document.new_id("export")
-        file = file_name(dance.name, chosen.ending)
+        file = file_name(f"{dance.name}{_film_words(film)}", chosen.ending)
         job = studio.jobs.add("export", id, f"writing {file}", [dance.id, dance.song])
-        item = ExportItem(id, dance.id, chosen.name, file, job=job.id)
+        item = ExportItem(id, dance.id, chosen.name, file, film, job=job.id)
         document.put("exports", item)
     studio.jobs.look()
     return answer(item, 201)
@@ -46,6 +47,38 @@ async def remove_export(request: Request) -> Response:
     item = studio.item("exports", request.path_params["id"], ExportItem)
     studio.remove("exports", item.id)
     return Response(status_code=204)
+
+
+def _film(told: ExportOrder) -> FilmOrder | None:
+    """How a video is to be; as usual where nothing is said of it, and refused where it is none."""
+    if told.format != FILM:
+        if told.film is not None:
+            raise FieldError("film", f"film is for the format {FILM}; {told.format[:40]!r} is ordered")
+        return None
+    from onbeat.viewer.video import check_film
+
+    film = FilmOrder() if told.film is None else told.film
+    try:
+        check_film((film.width, film.height), film.fps)
+    except OnbeatError as error:
+        raise FieldError("film", str(error)) from None
+    return film
+
+
+def _film_words(film: FilmOrder | None) -> str:
+    """What of a video is not as usual, for its name: two of one dance are told apart.
+
+    Examples
+    --------
+    >>> _film_words(FilmOrder(1080, 1920, flash=True)), _film_words(FilmOrder())
+    (', 1080x1920, flashes', '')
+    """
+    if film is None:
+        return ""
+    usual = FilmOrder()
+    size = "" if (film.width, film.height) == (usual.width, usual.height) else f", {film.width}x{film.height}"
+    rate = "" if film.fps == usual.fps else f", {film.fps:g} fps"
+    return size + rate + (", flashes" if film.flash else "")
 
 
 def file_name(name: str, ending: str) -> str:

@@ -13,13 +13,15 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from onbeat.studio.answers import answer
-from onbeat.studio.archives import is_archive, one_file, shown_names, unpacked
+from onbeat.studio.archives import Found, is_archive, one_file, shown_names, unpacked
 from onbeat.studio.project import INCOMING
 from onbeat.studio.studio import Studio, clean_name
 from onbeat.studio.uploads import discard, received
-from onbeat.studio.wire import MotionItem
+from onbeat.studio.wire import MotionItem, TakenMotions
 
 VIEW = "view.json"
+MOST_TOLD = 100
+"""Names of files that are passed over in an archive, beyond which no more are told."""
 
 
 async def take_motions(request: Request) -> Response:
@@ -30,18 +32,18 @@ async def take_motions(request: Request) -> Response:
     folder = studio.folder.scratch(INCOMING)
     try:
         found = await run_in_threadpool(partial(_files, upload, folder, name, studio.largest))
-        items = _taken(studio, folder, found)
+        items = _taken(studio, folder, found.files)
     finally:
         discard(upload)
         shutil.rmtree(folder, ignore_errors=True)
     studio.jobs.look()
-    return answer(items, 201)
+    return answer(TakenMotions(items, found.passed_over[:MOST_TOLD]), 201)
 
 
-def _files(upload: Path, folder: Path, name: str, largest: int) -> list[tuple[Path, str]]:
+def _files(upload: Path, folder: Path, name: str, largest: int) -> Found:
     if not name.lower().endswith(".npz") and is_archive(upload):  # NumPy's archives are zip files, too
-        found = unpacked(upload, folder, largest)
-        return [(path, shown) for (path, _), shown in zip(found, shown_names(found), strict=True)]
+        files, passed_over = unpacked(upload, folder, largest)
+        return Found([(path, shown) for (path, _), shown in zip(files, shown_names(files), strict=True)], passed_over)
     return one_file(upload, folder, name)
 
 

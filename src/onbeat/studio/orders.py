@@ -20,7 +20,7 @@ from onbeat.studio.tasks import (
     SoundSource,
     Task,
 )
-from onbeat.studio.wire import DanceItem, ExportItem, JobItem, LibraryItem
+from onbeat.studio.wire import DanceItem, ExportItem, FilmOrder, JobItem, LibraryItem
 
 SOUND = "sound.wav"
 
@@ -112,4 +112,5 @@ def _export(project: Project, item: ExportItem, out: Path) -> ExportTask:
         start=dance.start,
         speed=dance.speed,
         robot=dance.robot,
+        film=item.film or FilmOrder(),
     )

@@ -49,6 +49,7 @@ def song_view(folder: Path, item: SongItem) -> SongView:
         waveform=curves.waveform,
         edited=edited is not None,
         key=song.key,
+        heard_beats=song.beats.tolist(),
     )
 
 

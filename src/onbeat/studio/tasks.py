@@ -10,7 +10,7 @@ from typing import Literal
 
 import msgspec
 
-from onbeat.studio.wire import BeatsData, Mark
+from onbeat.studio.wire import BeatsData, FilmOrder, Mark
 
 
 class SoundSource(msgspec.Struct, frozen=True):
@@ -81,7 +81,10 @@ class RetimeTask(msgspec.Struct, frozen=True, tag="retime"):
 
 
 class ExportTask(msgspec.Struct, frozen=True, tag="export"):
-    """The dance of a folder as a file; it is heard from second ``start`` of ``sound`` on, ``speed`` times as fast."""
+    """The dance of a folder as a file; it is heard from second ``start`` of ``sound`` on, ``speed`` times as fast.
+
+    ``film`` says how a video is to be.
+    """
 
     out: str
     file: str
@@ -91,6 +94,7 @@ class ExportTask(msgspec.Struct, frozen=True, tag="export"):
     start: float
     speed: float
     robot: str | None = None
+    film: FilmOrder = FilmOrder()
 
 
 Task = ListenTask | LookTask | BuildTask | DanceTask | RetimeTask | ExportTask

@@ -131,6 +131,15 @@ class DanceItem(msgspec.Struct, frozen=True):
     note: str = ""
 
 
+class FilmOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A video: pixels across and down, pictures a second, and whether a ring runs over the floor on every beat."""
+
+    width: int = 1280
+    height: int = 720
+    fps: float = 30.0
+    flash: bool = False
+
+
 class ExportItem(msgspec.Struct, frozen=True):
     """A dance as a file to take away, at ``/api/exports/ID`` once it is ready; ``file`` is its name there."""
 
@@ -138,6 +147,7 @@ class ExportItem(msgspec.Struct, frozen=True):
     dance: str
     format: str
     file: str
+    film: FilmOrder | None = None
     state: Literal["waiting", "ready", "failed", "cancelled"] = "waiting"
     job: str | None = None
     error: str | None = None
@@ -186,7 +196,10 @@ class Project(msgspec.Struct, frozen=True):
 
 
 class SongView(msgspec.Struct, frozen=True):
-    """What is heard in a song, or put right by the user (``edited``); ``chord_change`` and ``confidence`` per beat."""
+    """What is heard in a song, or put right by the user (``edited``); ``chord_change`` and ``confidence`` per beat.
+
+    ``heard_beats`` are those that were heard, whatever the user put in their place.
+    """
 
     id: str
     name: str
@@ -201,6 +214,7 @@ class SongView(msgspec.Struct, frozen=True):
     waveform: CurveData
     edited: bool
     key: str = ""
+    heard_beats: list[float] = []
 
 
 class BeatsData(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -223,6 +237,13 @@ class MotionView(msgspec.Struct, frozen=True):
     intensity: CurveData
     keyposes: list[float]
     scene: PageData
+
+
+class TakenMotions(msgspec.Struct, frozen=True):
+    """What was taken of a motion file or an archive of them, and names of what is in the archive and was not."""
+
+    motions: list[MotionItem]
+    passed_over: list[str]
 
 
 class LibraryOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -271,9 +292,10 @@ class RobotOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ExportOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A dance as a file."""
+    """A dance as a file; ``film`` is for a video, which without it is as usual."""
 
     format: str
+    film: FilmOrder | None = None
 
 
 class NameOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -297,9 +319,9 @@ class EventData(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 STRUCTS = (
-    JobItem, SongItem, MotionItem, LibraryItem, KeptStretch, DanceOrder, DanceItem, ExportItem, RobotItem, MethodItem,
-    FormatItem, Project, SongView, BeatsData, MotionView, LibraryOrder, ClipItem, LibraryView, DanceView, RetimeOrder,
-    RobotOrder, ExportOrder, NameOrder, ErrorData, EventData,
+    JobItem, SongItem, MotionItem, LibraryItem, KeptStretch, DanceOrder, DanceItem, FilmOrder, ExportItem,
+    RobotItem, MethodItem, FormatItem, Project, SongView, BeatsData, MotionView, TakenMotions, LibraryOrder,
+    ClipItem, LibraryView, DanceView, RetimeOrder, RobotOrder, ExportOrder, NameOrder, ErrorData, EventData,
 )  # fmt: skip
 """All classes that go over the wire, parts before the whole."""
 

@@ -12,12 +12,12 @@ from onbeat.dance.make import LONGEST, Dance, make_dance
 from onbeat.dance.score import INTENSITY
 from onbeat.dance.wishes import Kept, Wishes
 from onbeat.errors import OnbeatError, PlanError
-from onbeat.keyposes.extract import Keyposes, find_keyposes
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.fixes import Corrections
 from onbeat.music.listen import listen
 from onbeat.music.song import Song
 from onbeat.studio.dance_folder import ROOT, SHOWN, StoredDance, write_scene
+from onbeat.studio.dance_stages import made_again, stages_of_dancing
 from onbeat.studio.song_view import bar_length
 from onbeat.studio.tasks import DanceTask, Done, RetimeTask, SoundSource, marks_of
 from onbeat.studio.telling import Tell
@@ -25,43 +25,28 @@ from onbeat.studio.wire import BeatsData, Mark
 from onbeat.studio.work_build import MOVES
 from onbeat.studio.work_listen import SOUND, with_name
 from onbeat.viewer.dance_page import dance_page_data
-
-PARTS = {"listening": 1.0, "moves": 1.0, "searching": 4.0, "dancing": 1.0, "warping": 1.0, "measuring": 1.0}
-FASTER = {"retiming": 3.0}
-ON_ROBOT = {"retarget": 6.0, "retime": 3.0, "legs": 1.0, "balance": 4.0}
+from onbeat.viewer.graph_drawn import drawn_graph
 
 
 def danced(task: DanceTask, tell: Tell) -> Done:
     """Dance, and put the dance in another time and on a robot where that is asked for."""
-    again = task.robot is not None or task.speed != 1.0
-    tell, out = tell.of(PARTS | (later(task.robot) if again else {})), Path(task.out)
+    tell, out = tell.of(stages_of_dancing(task.robot, task.speed)), Path(task.out)
     song = danced_song(task, tell)
     library = _library(task, tell)
     with threadpool_limits(1, "blas"):
         dance = _made(task, song, library, tell)
     stored = StoredDance(dance.motion.replace(name=task.name), dance.document, dance.song)
     stored.write(out, ROOT)
-    if again:
+    if made_again(task.robot, task.speed):
         from onbeat.studio.work_retime import again_as
 
-        return again_as(RetimeTask(str(out), task.name, str(out), task.speed, task.robot), stored, tell)
+        order = RetimeTask(str(out), task.name, str(out), task.speed, task.robot)
+        graph = drawn_graph(library, [move.clip for move in dance.document.moves])
+        return again_as(order, stored, graph, tell)
     stored.write(out, SHOWN)
-    write_scene(out, dance_page_data(dance, library, None, keyposes_of(stored)))
+    write_scene(out, dance_page_data(dance, library, None, stored.keyposes))
     f50 = dance.document.metrics["beats"]["f50"]
     return Done(seconds=dance.motion.duration, tempo=dance.song.tempo, f50=f50)
-
-
-def later(robot: str | None) -> dict[str, float]:
-    """The stages in which a dance is put in another time, or on a robot."""
-    return FASTER if robot is None else ON_ROBOT
-
-
-def keyposes_of(dance: StoredDance) -> Keyposes | None:
-    """The keyposes of a dance on the beats it dances to; None where it is too short to have any."""
-    try:
-        return find_keyposes(dance.motion, dance.song.beats)
-    except OnbeatError:
-        return None
 
 
 def danced_song(task: DanceTask, tell: Tell) -> Song:

@@ -77,9 +77,10 @@ def _page(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
 def _film(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
     import numpy as np
 
+    from onbeat.viewer.flashes import Flashes
     from onbeat.viewer.video import write_video
 
-    motion, figure = dance.motion, None
+    motion, figure, film = dance.motion, None, task.film
     if task.robot is not None:
         from onbeat.robots.model import robot_named
         from onbeat.viewer.figure import Figure
@@ -88,7 +89,9 @@ def _film(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
         motion, shape = robot_shape(motion, robot_named(task.robot))
         figure = Figure.from_capsules(shape, ROBOT)
     write_video(
-        path, motion, dance.song, _sound(task, dance), stops=np.array(dance.document.stops), figure=figure,
+        path, motion, dance.song, _sound(task, dance), fps=film.fps, size=(film.width, film.height),
+        stops=np.array(dance.document.stops), figure=figure,
+        flashes=Flashes.on(dance.song.beats, dance.song.downbeats) if film.flash else None,
         progress=lambda share: tell("writing", share),
     )  # fmt: skip
 

@@ -30,12 +30,13 @@ HIGHEST = 48000
 """Hz of the sound that is played."""
 WAVEFORM_RATE, CURVE_RATE, FINE = 50.0, 10.0, 4000
 """Values a second of the waveform and of the intensity; Hz at which the waveform is measured."""
-PARTS = {"composing": 3.0, "reading": 1.0, "listening": 6.0}
+COMPOSED, GIVEN = {"composing": 3.0, "listening": 4.0, "beats": 2.0}, {"reading": 1.0, "listening": 4.0, "beats": 2.0}
+"""The stages of a song that is made here, and of one that a user gives."""
 
 
 def listened(task: ListenTask, tell: Tell) -> Done:
     """Hear a song and write what the studio needs of it."""
-    tell, out = tell.of(PARTS), Path(task.out)
+    tell, out = tell.of(COMPOSED if task.song.file is None else GIVEN), Path(task.out)
     try:
         _write_sound(task.song, out / SOUND, tell)
         song = _heard(task.song, out / SOUND, tell)
@@ -56,7 +57,13 @@ def with_name(text: str, song: SoundSource, *paths: Path) -> str:
 
 def _heard(song: SoundSource, sound: Path, tell: Tell) -> Song:
     length = audio_duration(sound)
-    found = listen(sound, progress=lambda second: tell("listening", second / length))
+
+    def told(second: float) -> None:
+        tell("listening", second / length)
+        if second >= length:
+            tell("beats", 0.0, "finding the beats")
+
+    found = listen(sound, progress=told)
     return replace(found, title=song.name)
 
 

@@ -24,13 +24,14 @@ from onbeat.studio.dance_folder import (
     StoredDance,
     faster_document,
     faster_song,
+    graph_of,
     write_scene,
 )
+from onbeat.studio.dance_stages import stages_of_again
 from onbeat.studio.tasks import Done, RetimeTask
 from onbeat.studio.telling import Tell
-from onbeat.studio.work_dance import keyposes_of, later
 from onbeat.viewer.content import page_data
-from onbeat.viewer.contract import MoveData, PageData
+from onbeat.viewer.contract import GraphData, MoveData, PageData
 from onbeat.viewer.robot_page import robot_page_data
 
 ON_BEAT = 0.05
@@ -41,11 +42,14 @@ def retimed(task: RetimeTask, tell: Tell) -> Done:
     """The dance of a folder at another speed, or on a robot."""
     root = StoredDance.read(Path(task.folder), ROOT)
     root.write(Path(task.out), ROOT)
-    return again_as(task, root, tell.of(later(task.robot)))
+    return again_as(task, root, graph_of(Path(task.folder)), tell.of(stages_of_again(task.robot)))
 
 
-def again_as(task: RetimeTask, root: StoredDance, tell: Tell) -> Done:
-    """Make what a task asks for of a dance that is its root; the root itself is written already."""
+def again_as(task: RetimeTask, root: StoredDance, graph: GraphData | None, tell: Tell) -> Done:
+    """Make what a task asks for of a dance that is its root; the root itself is written already.
+
+    It goes through the same motion graph as its root, by the same clips and joins.
+    """
     out, song = Path(task.out), faster_song(root.song, task.speed)
     made = _on_robot if task.robot is not None else _faster
     motion, metrics, page, note = made(task, root, tell)
@@ -57,8 +61,8 @@ def again_as(task: RetimeTask, root: StoredDance, tell: Tell) -> Done:
     stored = StoredDance(motion, document, song)
     stored.write(out, SHOWN)
     if page is None:
-        page = page_data(motion, song, msgspec.to_builtins(document), None, keyposes_of(stored))
-    write_scene(out, _with_moves(page, document))
+        page = page_data(motion, song, msgspec.to_builtins(document), None, stored.keyposes)
+    write_scene(out, msgspec.structs.replace(_with_moves(page, document), graph=graph))
     return Done(seconds=motion.duration, tempo=song.tempo, f50=f50, note=note)
 
 
@@ -81,7 +85,7 @@ Made = tuple[Motion, dict[str, Any], PageData | None, str]
 
 def _faster(task: RetimeTask, root: StoredDance, tell: Tell) -> Made:
     """A character: inside the speeds that its joints have in the dance itself."""
-    keyposes = keyposes_of(root)
+    keyposes = root.keyposes
     times = np.zeros(0) if keyposes is None else np.asarray(keyposes.times)
     limits = learned_limits([root.motion], skeleton=root.motion.skeleton)
     result = retime(
@@ -121,7 +125,7 @@ def _on_robot(task: RetimeTask, root: StoredDance, tell: Tell) -> Made:
 
     assert task.robot is not None
     model = robot_named(task.robot)
-    found = keyposes_of(root)
+    found = root.keyposes
     keyposes = np.zeros(0) if found is None else np.asarray(found.times)
     warp = TimeMap.steady(task.speed)
     staged = stage(root.motion, model, warp, root.song.beats, keyposes, progress=lambda what, share: tell(what, share))

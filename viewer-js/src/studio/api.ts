@@ -11,7 +11,7 @@ export class Refusal extends Error {
   }
 }
 
-const AWAY = "The studio's server does not answer. Is `onbeat studio` still running?";
+export const AWAY = "The studio's server does not answer. Is `onbeat studio` still running?";
 
 export async function ask<T>(method: string, path: string, body?: unknown): Promise<T> {
   const sent =

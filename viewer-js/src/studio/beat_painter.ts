@@ -9,7 +9,7 @@ import { type Painter, RULER } from "./track";
 
 const [CHORDS, LEVELS, GAP] = [30, 46, 6]; // [px]
 const GRIP = 13; // [px] of the head by which a beat is held
-const CROWDED = 9; // [px] between beats, below which the weak ones have no heads
+const CROWDED = 15; // [px] between beats, below which the weak ones have no heads
 
 export class BeatPainter implements Painter {
   selected = -1;

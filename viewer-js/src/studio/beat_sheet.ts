@@ -131,6 +131,17 @@ export class BeatSheet {
     this.changed();
   }
 
+  /** Which beat is other than it was, or comes after one that is gone; undefined where more than one is. */
+  changedFrom(before: readonly Beat[]): number | undefined {
+    const { beats } = this;
+    const [shorter, longer] = [Math.min(beats.length, before.length), Math.max(beats.length, before.length)];
+    let same = 0;
+    while (same < shorter && beats[same] === before[same]) same++;
+    let after = 0;
+    while (after < shorter - same && beats[beats.length - 1 - after] === before[before.length - 1 - after]) after++;
+    return longer - same - after === 1 ? Math.min(same, beats.length - 1) : undefined;
+  }
+
   private put(beats: readonly Beat[]): void {
     this.past.push(this.beats);
     this.future = [];

@@ -41,8 +41,8 @@ export function showCard(element: HTMLElement, one: CardData, here: boolean): vo
   say(link.children[0], one.name);
   (link.children[0] as HTMLElement).title = one.name;
   say(link.children[1], line(one));
-  (link.children[1] as HTMLElement).title = one.state === "failed" ? (one.error ?? "") : "";
-  link.children[1].className = one.state === "failed" ? "bad" : "soft";
+  (link.children[1] as HTMLElement).title = one.state === "ready" ? "" : (one.error ?? line(one));
+  link.children[1].className = one.state === "failed" ? "bad" : one.state === "waiting" ? "soft works" : "soft";
   if (here) link.setAttribute("aria-current", "page");
   else link.removeAttribute("aria-current");
   const share = one.sending ?? (one.job?.state === "running" ? one.job.share : undefined);
@@ -57,5 +57,5 @@ function line({ state, line: ready, error, job, sending }: CardData): string {
   if (state === "cancelled") return "cancelled";
   if (state === "ready") return ready;
   if (job?.state !== "running") return "waits for its turn";
-  return [job.message, left(job.left_s)].filter(Boolean).join(" · ") || "works";
+  return [left(job.left_s), job.message].filter(Boolean).join(" · ") || "works";
 }

@@ -97,12 +97,21 @@ export interface DanceItem {
   note: string;
 }
 
+/** A video: pixels across and down, pictures a second, and whether a ring runs over the floor on every beat. */
+export interface FilmOrder {
+  width: number;
+  height: number;
+  fps: number;
+  flash: boolean;
+}
+
 /** A dance as a file to take away, at ``/api/exports/ID`` once it is ready; ``file`` is its name there. */
 export interface ExportItem {
   id: string;
   dance: string;
   format: string;
   file: string;
+  film: FilmOrder | null;
   state: "waiting" | "ready" | "failed" | "cancelled";
   job: string | null;
   error: string | null;
@@ -161,6 +170,7 @@ export interface SongView {
   waveform: CurveData;
   edited: boolean;
   key: string;
+  heard_beats: number[];
 }
 
 /** Beats as the user has them, seconds of the song; the downbeats are some of them. */
@@ -181,6 +191,12 @@ export interface MotionView {
   intensity: CurveData;
   keyposes: number[];
   scene: PageData;
+}
+
+/** What was taken of a motion file or an archive of them, and names of what is in the archive and was not. */
+export interface TakenMotions {
+  motions: MotionItem[];
+  passed_over: string[];
 }
 
 /** A library to build of motions of the project. */
@@ -222,9 +238,10 @@ export interface RobotOrder {
   name: string;
 }
 
-/** A dance as a file. */
+/** A dance as a file; ``film`` is for a video, which without it is as usual. */
 export interface ExportOrder {
   format: string;
+  film: FilmOrder | null;
 }
 
 /** Another name. */

@@ -4,12 +4,14 @@ import { ask, words } from "./api";
 import type { DanceItem, DanceView, ExportItem, FormatItem, JobItem } from "./contract";
 import { confirmed, renamed } from "./dialogs";
 import { button, choice, field, h, keyed, offer, say } from "./elements";
+import { FilmForm } from "./film_form";
 import { notice } from "./notices";
 import { jobBar, showJob } from "./pending";
 import type { Store } from "./store";
 import { go } from "./view";
 
 const [SLOWEST, FASTEST] = [0.6, 1.6];
+const FILM = "mp4";
 const NONE = [["", "nothing"]] as const;
 
 /** Exports that this page asked for: they are saved as soon as they are ready, whatever is looked at then. */
@@ -39,6 +41,7 @@ export class DanceTools {
   private readonly speedTold = h("output", {});
   private readonly robot = choice([], "");
   private readonly format = choice([], "");
+  private readonly film = new FilmForm();
   private readonly formatTold = h("small", {});
   private readonly files = h("ul", { class: "files" });
   private readonly exporting: HTMLButtonElement;
@@ -76,6 +79,7 @@ export class DanceTools {
       section(
         "Export",
         field("Format", this.format),
+        this.film.root,
         this.formatTold,
         h("div", { class: "row end" }, this.exporting),
         this.files,
@@ -123,7 +127,8 @@ export class DanceTools {
     say(this.speedTold, `${tempo}, ${pace(speed, this.item.speed)}`);
     this.speed.setAttribute("aria-valuetext", tempo);
     const format = this.store.project?.formats.find(({ name }) => name === this.format.value);
-    say(this.formatTold, format?.missing ?? "");
+    this.film.root.hidden = this.format.value !== FILM;
+    say(this.formatTold, format?.missing ? `Needs a package: pip install 'onbeat[${format.missing}]'` : "");
     this.exporting.disabled = !format || format.missing !== "";
   }
 
@@ -134,7 +139,7 @@ export class DanceTools {
     row.dataset.state = made.state;
     if (made.state === "ready")
       row.replaceChildren(
-        h("a", { href: `/api/exports/${made.id}`, download: made.file }, made.file),
+        h("a", { href: `/api/exports/${made.id}`, download: made.file, title: made.file }, made.file),
         h("span", { class: "soft" }, size(made.bytes)),
         this.away(made),
       );
@@ -178,7 +183,8 @@ export class DanceTools {
   }
 
   private async export(): Promise<void> {
-    const made = await ask<ExportItem>("POST", `dances/${this.item.id}/exports`, { format: this.format.value });
+    const [format, film] = [this.format.value, this.format.value === FILM ? this.film.order : null];
+    const made = await ask<ExportItem>("POST", `dances/${this.item.id}/exports`, { format, film });
     if (made.state === "ready") save(made);
     else wanted.add(made.id);
     await this.store.refresh();

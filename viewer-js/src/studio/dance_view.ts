@@ -54,13 +54,7 @@ export class DanceView implements View {
       return void this.root.replaceChildren(h("p", { class: "empty" }, "This dance is not in the project any more."));
     this.title = item.name;
     if (item.state !== "ready")
-      return pending(
-        this.root,
-        this.studio.store,
-        item,
-        "This dance",
-        item.kind === "danced" ? () => this.order(item.order) : undefined,
-      );
+      return pending(this.root, this.studio.store, item, "This dance", "dances", this.otherwise(item));
     say(this.name, item.name);
     this.shown?.tools.update(item);
     if (!this.asked) void this.open();
@@ -89,7 +83,7 @@ export class DanceView implements View {
       shown.locks.add(this.opening ?? 0, now);
       this.opening = undefined;
     } else if (event.key.toLowerCase() === "g") shown.graph.toggle();
-    else return shown.stage.key(event) || shown.transport.key(event);
+    else return shown.stage.key(event) || shown.score.track.key(event) || shown.transport.key(event);
     return true;
   }
 
@@ -193,7 +187,7 @@ export class DanceView implements View {
             h("p", { class: "facts" }, facts.join(" · ")),
             item.note && h("p", { class: "note" }, item.note),
           ),
-          item.kind === "danced" && button("Dance it otherwise", () => go("order", `${LIKE}/${item.id}`)),
+          this.otherwise(item),
         ),
         h("div", { class: "looks" }, ...this.studio.looks.map(({ root }) => root), stage.root),
         transport.root,
@@ -204,6 +198,11 @@ export class DanceView implements View {
       tools.root,
     );
     this.studio.looks[1].root.hidden = true;
+  }
+
+  private otherwise(item: DanceItem): HTMLElement | undefined {
+    if (item.kind !== "danced") return undefined;
+    return button("Dance it otherwise", () => go("order", `${LIKE}/${item.id}`));
   }
 
   /** Where the second dance is while the first is at `time`: both are heard at the same second of the song. */
@@ -232,7 +231,7 @@ export class DanceView implements View {
     looks[1].root.hidden = !other;
     looks[0].show(danced.scene, other ? danced.item.name : "", `${danced.item.name}, danced`);
     stage.tell();
-    score.compare(other && { scene: other.scene, at: (time) => this.besideBack(time) });
+    score.compare(other && { name: other.item.name, scene: other.scene, at: (time) => this.besideBack(time) });
     if (!other) return looks[1].clear();
     looks[1].show(other.scene, other.item.name, `${other.item.name}, danced`);
     if (other.item.song !== danced.item.song)

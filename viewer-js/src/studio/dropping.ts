@@ -1,15 +1,14 @@
 // Files that are dropped anywhere on the page, or chosen: songs are listened to, motions looked at.
 
 import { send, words } from "./api";
-import type { MotionItem, SongItem } from "./contract";
+import { type Parcel, parcels } from "./belonging";
+import type { SongItem, TakenMotions } from "./contract";
+import { droppedFiles } from "./dropped_files";
 import { at } from "./elements";
 import { notice } from "./notices";
+import { named, Refusals } from "./refusals";
 import type { Store } from "./store";
 import { go } from "./view";
-import { zipped } from "./zip";
-
-const SOUNDS = /\.(wav|flac|ogg|oga|mp3|m4a|aac|mp4|mov|mkv|webm|aif|aiff|opus)$/i;
-const BESIDE = /\.(asf|toml)$/i; // what motion files need beside them
 
 /** A file on its way to the server. */
 export interface Sending {
@@ -36,7 +35,10 @@ export class Dropping {
       if (!files(event)) return;
       event.preventDefault();
       this.hover(-this.depth);
-      void this.take(Array.from(event.dataTransfer?.files ?? []));
+      void droppedFiles(event.dataTransfer).then(
+        (files) => this.take(files),
+        () => notice("The folder could not be read: drop the files in it, or a zip of them.", true),
+      );
     });
     const chooser = at("files") as HTMLInputElement;
     chooser.addEventListener("change", () => {
@@ -50,67 +52,60 @@ export class Dropping {
     at("files").click();
   }
 
-  /** One after the other: the server's line is not made wider by many at once. */
-  async take(chosen: readonly File[]): Promise<void> {
-    const files = await together(chosen);
-    const entries = files.map((file) => ({ file, entry: this.entry(file) }));
-    for (const { file, entry } of entries) if (entry) await this.give(file, entry);
+  /** One after the other: the server's line is not made wider by many at once. What is taken first is shown. */
+  async take(files: readonly File[]): Promise<void> {
+    const here = location.hash;
+    const refusals = new Refusals();
+    if (!files.length) notice("There is no file in what was dropped.", true);
+    const entries = parcels(files).map((parcel) => ({ parcel, entry: this.entry(parcel, refusals) }));
+    for (const { parcel, entry } of entries) {
+      if (entry) await this.give(parcel, entry, refusals, () => location.hash === here);
+    }
+    refusals.end();
   }
 
-  private entry(file: File): Sending | undefined {
+  private entry(parcel: Parcel, refusals: Refusals): Sending | undefined {
     const largest = this.store.project?.largest ?? Infinity;
-    if (file.size > largest) {
-      notice(`${file.name} has ${megabytes(file.size)}; this studio takes files of up to ${megabytes(largest)}.`, true);
+    if (parcel.bytes > largest) {
+      refusals.add(parcel.names, `${megabytes(parcel.bytes)} are too much; this studio takes up to ${megabytes(largest)} at once.`);
       return undefined;
     }
-    const kind = isSound(file) ? "song" : "motion";
-    const entry: Sending = { key: `sending${++this.count}`, name: file.name, kind, share: 0 };
+    const entry: Sending = { key: `sending${++this.count}`, name: parcel.name, kind: parcel.kind, share: 0 };
     this.sending = [...this.sending, entry];
     this.changed();
     return entry;
   }
 
-  private async give(file: File, entry: Sending): Promise<void> {
+  private async give(parcel: Parcel, entry: Sending, refusals: Refusals, free: () => boolean): Promise<void> {
     const told = (share: number): void => {
       entry.share = share;
       this.changed();
     };
     try {
-      if (entry.kind === "song") go("song", (await send<SongItem>("songs", file, told)).id);
-      else await this.motions(file, told);
+      const file = await parcel.file();
+      const id = parcel.kind === "song" ? (await send<SongItem>("songs", file, told)).id : await this.motions(file, told);
+      if (id && free()) go(parcel.kind, id);
     } catch (error) {
-      const why = words(error);
-      notice(why.includes(entry.name) ? why : `${entry.name}: ${why}`, true);
+      refusals.add(parcel.names, words(error));
     }
     this.sending = this.sending.filter((other) => other !== entry);
     await this.store.refresh();
     this.changed();
   }
 
-  private async motions(file: File, told: (share: number) => void): Promise<void> {
-    const made = await send<MotionItem[]>("motions", file, told);
-    if (made.length === 1 && !location.hash.startsWith("#song")) go("motion", made[0].id);
-    if (made.length > 1) notice(`${made.length} motions came out of ${file.name}.`);
+  /** The motion to show, where it is one. */
+  private async motions(file: File, told: (share: number) => void): Promise<string | undefined> {
+    const { motions, passed_over } = await send<TakenMotions>("motions", file, told);
+    if (motions.length > 1) notice(`${motions.length} motions came out of ${file.name}.`);
+    if (passed_over.length)
+      notice(`Not taken, for it is no motion and belongs to none: ${named(passed_over)}.`, true);
+    return motions.length === 1 ? motions[0].id : undefined;
   }
 
   private hover(by: number): void {
     this.depth = Math.max(this.depth + by, 0);
     at("drop").hidden = this.depth === 0;
   }
-}
-
-/** Skeletons and roles files go in one archive with the motion files that came with them. */
-async function together(files: readonly File[]): Promise<readonly File[]> {
-  const beside = files.filter(({ name }) => BESIDE.test(name));
-  const wanted = beside.some(({ name }) => /\.toml$/i.test(name)) ? /./ : /\.amc$/i;
-  const motions = files.filter((file) => !beside.includes(file) && wanted.test(file.name) && !isSound(file) && !/\.zip$/i.test(file.name));
-  if (!beside.length || !motions.length) return files;
-  const archive = await zipped([...beside, ...motions], beside[0].name.replace(BESIDE, ".zip"));
-  return [...files.filter((file) => !beside.includes(file) && !motions.includes(file)), archive];
-}
-
-function isSound({ name, type }: File): boolean {
-  return SOUNDS.test(name) || type.startsWith("audio/");
 }
 
 function megabytes(bytes: number): string {

@@ -24,7 +24,6 @@ const KEYS: [string, [keys: string, does: string][]][] = [
       ["D", "a bar begins here, or not"],
       ["B", "bars begin here and go on so"],
       ["ctrl Z", "undo; with shift redo"],
-      ["+ −", "zoom"],
     ],
   ],
   [
@@ -39,6 +38,7 @@ const KEYS: [string, [keys: string, does: string][]][] = [
   [
     "Timelines",
     [
+      ["+ −", "zoom"],
       ["ctrl wheel", "zoom"],
       ["shift wheel", "move"],
     ],

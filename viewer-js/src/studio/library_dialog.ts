@@ -3,10 +3,12 @@
 import { ask } from "./api";
 import type { LibraryItem } from "./contract";
 import { dialog } from "./dialogs";
-import { field, h } from "./elements";
+import { button, field, h } from "./elements";
 import type { Store } from "./store";
 import { go } from "./view";
 import { exactly, plainName } from "./words";
+
+const FEW = 4; // motions that are ticked one by one
 
 export function newLibrary(store: Store, chosen: readonly string[] = []): void {
   const ready = (store.project?.motions ?? []).filter(({ state }) => state === "ready");
@@ -31,12 +33,14 @@ export function newLibrary(store: Store, chosen: readonly string[] = []): void {
     h("legend", {}, "Motions"),
     ...boxes.map(({ row }) => row),
   );
+  const tick = (on: boolean) => () => boxes.forEach(({ box }) => (box.checked = on));
+  const ticking = h("div", { class: "row" }, button("All", tick(true)), button("None", tick(false)));
   const told = h(
     "p",
     { class: "soft" },
     "A library holds the clips and all places where one can give way to another. Files of one body go together.",
   );
-  dialog("Make a library", [field("Name", name), list, told], "Build", async () => {
+  dialog("Make a library", [field("Name", name), ...(boxes.length > FEW ? [ticking] : []), list, told], "Build", async () => {
     const motions = boxes.filter(({ box }) => box.checked).map(({ box }) => box.value);
     if (!motions.length) throw new Error("Choose at least one motion.");
     const made = await ask<LibraryItem>("POST", "libraries", { name: name.value.trim() || "My moves", motions });

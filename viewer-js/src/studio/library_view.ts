@@ -33,7 +33,7 @@ export class LibraryView implements View {
     if (!item)
       return void this.root.replaceChildren(h("p", { class: "empty" }, "This library is not in the project any more."));
     this.title = item.name;
-    if (item.state !== "ready") return pending(this.root, this.studio.store, item, "This library");
+    if (item.state !== "ready") return pending(this.root, this.studio.store, item, "This library", "libraries");
     if (!this.asked) void this.open();
   }
 

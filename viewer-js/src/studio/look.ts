@@ -43,10 +43,12 @@ export class Look {
   private stage?: Stage;
   private scene?: PageData;
   private shape = 0; // of the picture when the camera was placed
+  private placed = true; // whether the camera was placed by the picture's shape of now
   private night = false;
   private marks?: Marks;
   private ghosts?: Ghosts;
   private standing = true;
+  private told = ""; // who is seen
   view: ViewName = "follow";
 
   constructor() {
@@ -98,6 +100,12 @@ export class Look {
   look(view: ViewName): void {
     this.view = view;
     this.stage?.look(view);
+    this.tell();
+  }
+
+  private tell(): void {
+    const words = `${this.told}, seen by the camera “${this.view}”. Drag to look around, scroll to come closer; V changes the camera.`;
+    this.canvas.setAttribute("aria-label", words);
   }
 
   /** Another dancer comes; `name` stands under it where there are two. */
@@ -106,7 +114,8 @@ export class Look {
     this.ghosts = undefined;
     say(this.caption, name);
     this.caption.hidden = name === "";
-    this.canvas.setAttribute("aria-label", `${told}. Drag to look around, scroll to come closer.`);
+    this.told = told;
+    this.tell();
     this.dress();
   }
 
@@ -119,6 +128,8 @@ export class Look {
     if (!scene || !this.canvas.clientWidth || !this.canvas.isConnected) return;
     const shape = this.canvas.clientWidth / this.canvas.clientHeight;
     if (Math.abs(Math.log(shape / (this.shape || shape))) > TURNED || !this.shape) this.dress();
+    if (!this.placed) requestAnimationFrame(() => this.stage?.look(this.view, true)); // the picture has its new shape then
+    this.placed = true;
     const at = Math.min(Math.max(time, 0), scene.duration);
     const beat = lastBefore(scene.beats, at);
     const since = beat < 0 ? 9 : at - scene.beats[beat];
@@ -137,6 +148,7 @@ export class Look {
       else this.stage = new Stage(canvas, { floor: 0, facing: 0 }, dancer);
       this.stage.survey(reachOf(places, scene.joints.length, scene.spine[0], scene.duration, 0));
       this.stage.look(this.view, true);
+      this.placed = false;
       this.furnish(scene, places);
       this.stage.dark = this.night;
       this.problem.hidden = true;
@@ -146,6 +158,7 @@ export class Look {
       this.scene = undefined;
     }
   }
+
   /** What is drawn beside the dancer, as it was before where it is the same scene. */
   private furnish(scene: PageData, places: Places): void {
     const before = this.haunting;

@@ -2,6 +2,7 @@
 
 import { Theme } from "../live/theme";
 import { dim as repaint } from "../palette";
+import { AWAY } from "./api";
 import { DanceView } from "./dance_view";
 import { saveWanted } from "./dance_tools";
 import { Dropping } from "./dropping";
@@ -11,7 +12,7 @@ import { JobsPanel } from "./jobs_panel";
 import { LibraryView } from "./library_view";
 import { Look } from "./look";
 import { MotionView } from "./motion_view";
-import { notice } from "./notices";
+import { notice, unsay } from "./notices";
 import { OrderView } from "./order_view";
 import { Player } from "./player";
 import { Shelf } from "./shelf";
@@ -85,6 +86,7 @@ class Page implements Studio {
   private update(): void {
     const { project, connected, problem } = this.store;
     document.body.classList.toggle("away", !connected);
+    if (connected) unsay(AWAY);
     say(at("link").lastElementChild as Element, connected ? "connected" : "no server; trying again");
     at("away").hidden = connected || !project;
     say(at("away"), `${problem || "The server is away."} What is shown stays; as soon as it is back, everything goes on.`);

@@ -32,7 +32,7 @@ export class MotionView implements View {
     if (!item)
       return void this.root.replaceChildren(h("p", { class: "empty" }, "This motion is not in the project any more."));
     this.title = plainName(item.name);
-    if (item.state !== "ready") return pending(this.root, this.studio.store, item, "This motion");
+    if (item.state !== "ready") return pending(this.root, this.studio.store, item, "This motion", "motions");
     if (!this.asked) void this.open();
   }
 
@@ -43,7 +43,7 @@ export class MotionView implements View {
   }
 
   key(event: KeyboardEvent): boolean {
-    return (this.stage?.key(event) || this.transport?.key(event)) ?? false;
+    return (this.stage?.key(event) || this.score?.track.key(event) || this.transport?.key(event)) ?? false;
   }
 
   dim(): void {

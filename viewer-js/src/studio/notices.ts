@@ -13,8 +13,13 @@ export function notice(words: string, bad = false): void {
   );
   const entry = h("li", { class: bad ? "bad" : "" }, h("span", {}, words), away);
   const list = at("notices");
-  for (const old of Array.from(list.children)) if (old.firstChild?.textContent === words) old.remove();
+  unsay(words);
   list.append(entry);
   while (list.children.length > MOST) list.firstElementChild?.remove();
   if (!bad) setTimeout(() => entry.remove(), STAYS);
+}
+
+/** It does not hold any more. */
+export function unsay(words: string): void {
+  for (const old of Array.from(at("notices").children)) if (old.firstChild?.textContent === words) old.remove();
 }

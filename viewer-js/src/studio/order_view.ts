@@ -101,6 +101,7 @@ export class OrderView implements View {
   update(): void {
     const { project } = this.studio.store;
     if (!project) return;
+    const before = this.song.value;
     const ready = <T extends { state: string }>(items: readonly T[]): T[] =>
       items.filter(({ state }) => state === "ready");
     offer(
@@ -123,6 +124,8 @@ export class OrderView implements View {
       ...project.robots.map(({ name, title }) => [name, title || name] as const),
     ]);
     this.go.disabled = !this.song.value || !this.library.value;
+    if (this.song.value !== before) this.chosen(true); // one is ready now
+    else this.tellLength();
   }
 
   frame(time: number): void {
@@ -207,7 +210,13 @@ export class OrderView implements View {
       "aria-valuetext",
       `${weight.toFixed(1)}, from 0, the rhythm only, to ${MOST_WEIGHT}, mostly the intensity`,
     );
-    say(this.lengthTold, this.duration ? `The song has ${exactly(this.duration)}.` : "");
+    this.tellLength();
+  }
+
+  private tellLength(): void {
+    const lacking = [this.song.value ? "" : "song", this.library.value ? "" : "library"].filter(Boolean).join(" and no ");
+    const length = `The song has ${exactly(this.duration)}.`;
+    say(this.lengthTold, lacking ? `No ${lacking} is ready yet: wait until the jobs are done.` : length);
   }
 
   private order(): DanceOrder {

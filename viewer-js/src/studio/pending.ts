@@ -5,10 +5,11 @@ import type { JobItem } from "./contract";
 import { button, h, say } from "./elements";
 import { notice } from "./notices";
 import type { Store } from "./store";
-import { left } from "./words";
+import { left, plainName } from "./words";
 
 interface Worked {
   id: string;
+  name: string;
   state: "waiting" | "ready" | "failed" | "cancelled";
   job: string | null;
   error: string | null;
@@ -47,7 +48,8 @@ export function pending(
   store: Store,
   item: Worked,
   what: string,
-  again?: () => Promise<void>,
+  where: "songs" | "motions" | "libraries" | "dances",
+  otherwise?: HTMLElement,
 ): void {
   const job = store.job(item.job);
   if (item.state === "waiting" && job) {
@@ -56,7 +58,7 @@ export function pending(
     const bar = jobBar(job);
     bar.dataset.job = job.id;
     return root.replaceChildren(
-      h("div", { class: "pending" }, bar, h("p", {}, "You can do something else meanwhile; it goes on.")),
+      h("div", { class: "pending" }, h("h2", {}, plainName(item.name)), bar, h("p", {}, "You can do something else meanwhile; it goes on.")),
     );
   }
   const why =
@@ -71,16 +73,21 @@ export function pending(
     h(
       "div",
       { class: "pending" },
+      h("h2", {}, plainName(item.name)),
       h("p", { class: item.state === "failed" ? "problem" : "soft", role: "status" }, why),
       ended &&
-        again &&
-        h(
-          "div",
-          {},
-          button("Try again", () => void again()),
-        ),
+        h("div", { class: "row" }, button("Try again", () => void again(store, `${where}/${item.id}/again`)), otherwise),
     ),
   );
+}
+
+async function again(store: Store, path: string): Promise<void> {
+  try {
+    await ask("POST", path);
+    await store.refresh();
+  } catch (error) {
+    notice(words(error), true);
+  }
 }
 
 async function cancel(job: string): Promise<void> {

@@ -5,6 +5,7 @@ import type { Curve } from "../data";
 import { xOf } from "../lanes";
 import { evened } from "./beat_painter";
 import { h } from "./elements";
+import { sceneInWords } from "./in_words";
 import type { Locks } from "./locks";
 import type { Palette } from "./palette";
 import type { Player } from "./player";
@@ -19,6 +20,7 @@ export class Score implements Hand {
   readonly root: HTMLElement;
   readonly track: Track;
   readonly painter: ScorePainter;
+  private readonly legend = h("ul", { class: "legend" });
   private began = 0;
   private beganAt = 0;
 
@@ -30,11 +32,10 @@ export class Score implements Hand {
   ) {
     this.painter = new ScorePainter(scene, colours);
     if (locks) this.painter.locks = () => locks.stretches;
-    const words = locks
-      ? "Timeline of the dance. Square brackets lock a stretch from and to the play head."
-      : "Timeline of the motion.";
+    const keys = "Arrows go back and on, plus and minus zoom.";
     this.track = new Track(
-      words,
+      () => sceneInWords(scene, locks?.stretches ?? [], this.painter.beside?.name),
+      locks ? `${keys} Square brackets lock a stretch from and to the play head.` : keys,
       scene.duration,
       FIRST_SHOWN,
       this.painter.height,
@@ -43,12 +44,12 @@ export class Score implements Hand {
       (t) => player.seek(t),
       colours,
     );
-    const legend = this.painter.legend().map(([sign, colour, means]) => h("li", {}, mark(sign, colour), means));
+    this.explain();
     this.root = h(
       "section",
       { class: "score", "aria-label": "Timeline" },
       this.track.root,
-      h("div", { class: "row" }, h("ul", { class: "legend" }, ...legend), h("i", { class: "fill" }), zooms(this.track)),
+      h("div", { class: "row" }, this.legend, zooms(this.track)),
     );
   }
 
@@ -64,8 +65,14 @@ export class Score implements Hand {
     this.track.stale();
   }
 
+  private explain(): void {
+    const all = this.painter.legend().map(([sign, colour, means]) => h("li", {}, mark(sign, colour), means));
+    this.legend.replaceChildren(...all);
+  }
+
   compare(beside?: Beside): void {
     this.painter.beside = beside;
+    this.explain();
     this.track.canvas.style.height = `${this.painter.height}px`;
     this.track.stale();
   }

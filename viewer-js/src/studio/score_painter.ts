@@ -10,10 +10,11 @@ import { type Painter, RULER } from "./track";
 
 export const [CLIPS, LEVELS, GAP] = [24, 52, 5]; // [px]
 const ON_BEAT = 0.1; // [s]
-const STOPS = 16; // [px] lane of the stops
+const [STOPS, NAME] = [16, 15]; // [px] lane of the stops, and of a second dance's name
 
 /** A second dance below the first, whose clips are drawn too; `at` says where a second of it is on the first one's clock. */
 export interface Beside {
+  name: string;
   scene: PageData;
   at: (time: number) => number;
 }
@@ -27,6 +28,7 @@ export class ScorePainter implements Painter {
   private readonly motion: Curve;
   private hues: ClipColours;
   private other?: Beside;
+  private otherMotion: Curve;
 
   constructor(
     readonly scene: PageData,
@@ -34,6 +36,7 @@ export class ScorePainter implements Painter {
   ) {
     this.wave = readCurve(scene.waveform);
     [this.music, this.motion] = [readCurve(scene.music_intensity), readCurve(scene.motion_intensity)];
+    this.otherMotion = this.motion;
     this.hues = huesOf(scene);
   }
 
@@ -43,23 +46,32 @@ export class ScorePainter implements Painter {
 
   set beside(beside: Beside | undefined) {
     this.other = beside;
+    this.otherMotion = readCurve((beside ?? this).scene.motion_intensity);
     this.hues = huesOf(this.scene, beside?.scene);
   }
 
   /** Height that all lanes need. */
   get height(): number {
     const waves = this.wave.values.length || this.scene.beats.length ? 74 : 30;
-    return RULER + waves + this.clipLanes * (CLIPS + GAP) + GAP + LEVELS;
+    return RULER + waves + this.clipLane + this.besideLane + GAP + LEVELS;
   }
 
-  get clipLanes(): number {
-    return (this.scene.moves.length ? 1 : 0) + (this.beside?.scene.moves.length ? 1 : 0);
+  /** Height of the clips. */
+  private get clipLane(): number {
+    return this.scene.moves.length ? CLIPS + GAP : 0;
+  }
+
+  /** Height of what is drawn of the second dance: its name, its stops, its clips. */
+  private get besideLane(): number {
+    if (!this.other) return 0;
+    return NAME + STOPS + GAP + (this.other.scene.moves.length ? CLIPS + GAP : 0);
   }
 
   paint(pen: CanvasRenderingContext2D, span: Span, height: number, now: number): void {
     const colours = this.colours();
     const levels = height - LEVELS;
-    const clips = levels - GAP - this.clipLanes * (CLIPS + GAP);
+    const second = levels - GAP - this.besideLane;
+    const clips = second - this.clipLane;
     const bottom = clips - GAP;
     pen.fillStyle = colours.lane;
     pen.fillRect(0, RULER, span.width, bottom - RULER);
@@ -70,10 +82,9 @@ export class ScorePainter implements Painter {
     this.drawBeats(pen, span, RULER, bottom, colours);
     this.drawLevels(pen, span, levels, height, colours);
     if (this.scene.moves.length) this.drawClips(pen, span, this.scene, (t) => t, clips);
-    if (this.beside?.scene.moves.length)
-      this.drawClips(pen, span, this.beside.scene, this.beside.at, levels - GAP - CLIPS - GAP);
+    if (this.other) this.drawBeside(pen, span, this.other, second, now, colours);
     drawJoins(pen, span, this.scene, RULER, clips + (this.scene.moves.length ? CLIPS : 0));
-    this.drawStopsOn(pen, span, now);
+    this.drawStopsOn(pen, span, this.scene, (t) => t, RULER, now);
     this.drawKeyposes(pen, span, bottom, colours);
     this.drawLocks(pen, span, clips, colours);
   }
@@ -88,6 +99,7 @@ export class ScorePainter implements Painter {
       [joins.length > 0, "┊", "ink", "join"],
       [this.music.values.length > 0, "▆", "music", "music's intensity"],
       [this.motion.values.length > 0, "∿", "motion", this.music.values.length ? "dance's intensity" : "intensity"],
+      [this.other !== undefined, "╌", "chord", "the second dance's"],
     ];
     return all.filter(([there]) => there).map(([, sign, colour, means]) => [sign, colour, means]);
   }
@@ -125,18 +137,49 @@ export class ScorePainter implements Painter {
   private drawLevels(pen: CanvasRenderingContext2D, span: Span, top: number, bottom: number, colours: Palette): void {
     drawCurve(pen, span, this.music, top + 3, bottom, colours.music, true);
     drawCurve(pen, span, this.motion, top + 3, bottom - 1, colours.motion, false);
+    if (!this.other) return;
+    const { at } = this.other; // a straight line: the second's clock runs evenly on the first one's
+    const [begin, second] = [at(0), at(1) - at(0)];
+    const own = { from: (span.from - begin) / second, to: (span.to - begin) / second, width: span.width };
+    pen.setLineDash([5, 4]);
+    drawCurve(pen, own, this.otherMotion, top + 3, bottom - 1, colours.chord, false);
+    pen.setLineDash([]);
+  }
+
+  /** The second dance: its name over its stops, and its clips. */
+  private drawBeside(
+    pen: CanvasRenderingContext2D,
+    span: Span,
+    { name, scene, at }: Beside,
+    top: number,
+    now: number,
+    colours: Palette,
+  ): void {
+    pen.fillStyle = colours.soft;
+    pen.fillText(shortened(pen, name, span.width - 12), 2, top + NAME / 2 - 1);
+    pen.fillStyle = colours.lane;
+    pen.fillRect(0, top + NAME, span.width, STOPS);
+    this.drawStopsOn(pen, span, scene, at, top + NAME, now);
+    this.drawClips(pen, span, scene, at, top + NAME + STOPS + GAP);
   }
 
   /** Hollow where no beat is near: the eye goes to them. */
-  private drawStopsOn(pen: CanvasRenderingContext2D, span: Span, now: number): void {
-    const { beats, stops } = this.scene;
+  private drawStopsOn(
+    pen: CanvasRenderingContext2D,
+    span: Span,
+    { beats, stops }: PageData,
+    at: (time: number) => number,
+    top: number,
+    now: number,
+  ): void {
     const off = (time: number): number => {
       const before = lastBefore(beats, time);
       return Math.min(Math.abs(time - (beats[before] ?? -9)), Math.abs(time - (beats[before + 1] ?? 1e9)));
     };
-    const y = RULER + STOPS / 2 + 1;
+    const y = top + STOPS / 2 + 1;
     const colours = this.colours();
-    for (const time of stops) {
+    for (const stop of stops) {
+      const time = at(stop);
       if (time < span.from - 1 || time > span.to + 1) continue;
       const size = 5 * (1 + 0.6 * Math.max(0, now >= time ? 1 - (now - time) / 0.35 : 0));
       const x = xOf(span, time);
@@ -151,7 +194,7 @@ export class ScorePainter implements Painter {
       pen.closePath();
       pen.fillStyle = pen.strokeStyle = colours.ink;
       pen.lineWidth = 1.25;
-      if (!beats.length || off(time) <= ON_BEAT) pen.fill();
+      if (!beats.length || off(stop) <= ON_BEAT) pen.fill();
       else pen.stroke();
     }
   }

@@ -16,13 +16,20 @@ interface Section {
   count: HTMLElement;
   cards: HTMLElement;
   empty: HTMLElement;
+  sieve: HTMLInputElement;
+  more: HTMLButtonElement;
 }
 
+const KINDS = ["song", "motion", "library", "dance"] as const;
+type Kind = (typeof KINDS)[number];
+const FEW = 8; // cards of a kind, beyond which the others are shown when they are wanted
 const KEPT = new Set(["song", "troupe"]); // what is always there
 
 export class Shelf {
-  private readonly sections: Record<"song" | "motion" | "library" | "dance", Section>;
+  private readonly sections: Record<Kind, Section>;
   private readonly making: HTMLButtonElement;
+  private readonly whole = new Set<Kind>(); // kinds of which all are shown
+  private here = "";
 
   constructor(
     root: HTMLElement,
@@ -39,10 +46,16 @@ export class Shelf {
       motion: section("Motions", add("motions"), "Drop motion files here: BVH, C3D, AMC, npz …, or a zip of them."),
       library: section("Libraries", this.making, ""),
     };
+    for (const kind of KINDS) {
+      const { sieve, more } = this.sections[kind];
+      sieve.addEventListener("input", () => this.update(this.here));
+      more.addEventListener("click", () => this.turn(kind));
+    }
     root.append(...Object.values(this.sections).map(({ root: part }) => part));
   }
 
   update(here: string): void {
+    this.here = here;
     const { project } = this.store;
     if (!project) return;
     const all = {
@@ -52,8 +65,8 @@ export class Shelf {
       dance: this.dances(project),
     };
     this.making.disabled = !project.motions.some(({ state }) => state === "ready");
-    for (const kind of ["song", "motion", "library", "dance"] as const) {
-      const { cards, count, empty } = this.sections[kind];
+    for (const kind of KINDS) {
+      const { cards, count, empty, sieve, more } = this.sections[kind];
       const sending = this.dropping.sending
         .filter((one) => one.kind === kind)
         .map(({ key, name, share }): CardData => ({
@@ -68,14 +81,32 @@ export class Shelf {
       const items = [...all[kind].reverse(), ...sending];
       say(count, items.length ? String(items.length) : "");
       empty.hidden = items.length > 0;
+      sieve.hidden = more.hidden = items.length <= FEW;
+      say(more, this.whole.has(kind) ? "Show fewer" : `Show all ${items.length}`);
       keyed(
         cards,
-        items,
+        this.shown(kind, items, here),
         ({ id }) => id,
         (one) => card(one, () => this.remove(one)),
         (element, one) => showCard(element, one, here === `${kind}/${one.id}`),
       );
     }
+  }
+
+  private turn(kind: Kind): void {
+    if (!this.whole.delete(kind)) this.whole.add(kind);
+    this.update(this.here);
+  }
+
+  /** Those that are sought; else the newest, what is looked at and what is being worked on, or all. */
+  private shown(kind: Kind, items: readonly CardData[], here: string): readonly CardData[] {
+    const sought = this.sections[kind].sieve.value.trim().toLowerCase();
+    if (sought) return items.filter(({ name }) => name.toLowerCase().includes(sought));
+    if (this.whole.has(kind) || items.length <= FEW) return items;
+    let room = FEW;
+    return items.filter(
+      ({ id, job, sending }) => room-- > 0 || here === `${kind}/${id}` || job?.state === "running" || (sending ?? 0) > 0,
+    );
   }
 
   private songs({ songs }: Project): CardData[] {
@@ -128,7 +159,7 @@ export class Shelf {
       return {
         kind: "dance",
         id,
-        name,
+        name: name.replace(/ ×/g, "\u00a0×"), // it stays with its number
         line: line.filter(Boolean).join(" · "),
         state,
         error,
@@ -153,12 +184,17 @@ function section(title: string, add: HTMLElement, empty: string): Section {
     h("ul", { class: "cards" }),
     h("p", { class: "soft none" }, empty),
   ];
+  const words = `Find among the ${title.toLowerCase()}`;
+  const sieve = h("input", { type: "search", placeholder: words, "aria-label": words, hidden: true });
+  const more = button("", () => undefined, { class: "more", hidden: true });
   const root = h(
     "section",
     { "aria-label": title },
     h("div", { class: "row" }, h("h2", {}, title), count, h("i", { class: "fill" }), add),
+    sieve,
     cards,
+    more,
     none,
   );
-  return { root, count, cards, empty: none };
+  return { root, count, cards, empty: none, sieve, more };
 }

@@ -7,6 +7,7 @@ import { Clicks } from "./clicks";
 import type { SongItem, SongView as Heard } from "./contract";
 import { confirmed } from "./dialogs";
 import { button, h, say } from "./elements";
+import { corrected } from "./in_words";
 import { notice } from "./notices";
 import { palette } from "./palette";
 import { pending } from "./pending";
@@ -42,7 +43,7 @@ export class SongView implements View {
     if (!item)
       return void this.root.replaceChildren(h("p", { class: "empty" }, "This song is not in the project any more."));
     this.title = plainName(item.name);
-    if (item.state !== "ready") return pending(this.root, this.studio.store, item, "This song");
+    if (item.state !== "ready") return pending(this.root, this.studio.store, item, "This song", "songs");
     if (!this.asked) void this.open(item);
   }
 
@@ -124,7 +125,9 @@ export class SongView implements View {
       `${sheet.meter} in a bar`,
       `${sheet.beats.length} beats`,
     ];
-    if (heard.key) facts.push(heard.key.replace(":", " "));
+    const { own, gone } = corrected(sheet.beats, heard.heard_beats);
+    if (own || gone) facts.push(`${own} put right${gone > own ? `, ${gone - own} taken away` : ""}`);
+    if (heard.key) facts.push(heard.key.replace("b:", "♭:").replace(":", " "));
     say(this.facts, facts.join(" · "));
     this.back.disabled = !heard.edited && this.waiting === undefined;
   }

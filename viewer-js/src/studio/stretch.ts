@@ -10,6 +10,7 @@ import { palette } from "./palette";
 import { type Hand, type Painter, RULER, Track } from "./track";
 import { Transport } from "./transport";
 import type { Studio } from "./view";
+import { exactly } from "./words";
 
 const [HEIGHT, DRAGGED, SHORTEST] = [170, 5, 1]; // [px] [px] [s]
 
@@ -117,9 +118,13 @@ export class StretchChooser implements Painter, Hand {
     this.downbeats = song.downbeats;
     player.load({ url: `/api/songs/${song.id}/sound`, start: 0, speed: 1, duration: song.duration });
     this.transport = new Transport(player);
-    const label = "The song. Drag over it to choose what is danced to, or give seconds above.";
+    const words = (): string => {
+      const { from, to } = this.part();
+      return `The song, ${exactly(song.duration)} long; danced to is ${exactly(from)} to ${exactly(to)}.`;
+    };
     this.track = new Track(
-      label,
+      words,
+      "Give the seconds above, in From second and Seconds.",
       song.duration,
       song.duration,
       HEIGHT,

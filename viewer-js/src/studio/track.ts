@@ -5,6 +5,7 @@ import { type Span, timeAt, xOf } from "../lanes";
 import { drag, Strip } from "../strip";
 import { button, h } from "./elements";
 import { FONT, type Palette } from "./palette";
+import { exactly } from "./words";
 
 export const RULER = 20; // [px]
 const CLOSEST = 1.5; // [s] of which never less is shown
@@ -27,6 +28,8 @@ export interface Hand {
   hover?(t: number, x: number, y: number): string;
   twice?(t: number, x: number, y: number): void;
 }
+
+let hints = 0;
 
 /** Buttons that zoom. */
 export function zooms(track: Track): HTMLElement {
@@ -60,9 +63,13 @@ export class Track {
   private ruled = false; // whether the pointer is on the ruler
   private held = false; // whether a pointer is down: the strip must not turn its page under it
 
-  /** Of `height` pixels, or as its style has it where that is 0. */
+  private readonly words: () => string;
+  private told = ""; // which part the small strip says is shown
+
+  /** Of `height` pixels, or as its style has it where that is 0; `words` say what is drawn, `keys` what can be done. */
   constructor(
-    label: string,
+    words: () => string,
+    keys: string,
     duration: number,
     seconds: number,
     height: number,
@@ -73,10 +80,13 @@ export class Track {
   ) {
     this.duration = Math.max(duration, 0.1);
     this.seconds = Math.min(seconds, this.duration);
-    this.canvas = h("canvas", { class: "track", tabindex: 0, role: "application", "aria-label": label });
+    this.words = words;
+    const hint = h("p", { class: "unseen", id: `keys${++hints}` }, keys);
+    this.canvas = h("canvas", { class: "track", tabindex: 0, role: "application", "aria-describedby": hint.id });
     if (height) this.canvas.style.height = `${height}px`;
-    const whole = h("canvas", { class: "whole", "aria-hidden": "true" });
-    this.root = h("div", { class: "tracks" }, this.canvas, whole);
+    const whole = h("canvas", { class: "whole", role: "img" });
+    this.root = h("div", { class: "tracks" }, this.canvas, whole, hint);
+    this.name();
     [this.strip, this.whole] = [new Strip(this.canvas), new Strip(whole)];
     this.listen();
     drag(
@@ -93,7 +103,13 @@ export class Track {
   /** What is in it is other than it was. */
   stale(): void {
     this.pictureOf = "";
+    this.name();
     this.touch();
+  }
+
+  private name(): void {
+    const words = this.words();
+    if (this.canvas.getAttribute("aria-label") !== words) this.canvas.setAttribute("aria-label", words);
   }
 
   /** It is to be drawn again though nothing has moved. */
@@ -128,6 +144,13 @@ export class Track {
   zoom(factor: number, at = this.from + this.seconds / 2): void {
     const seconds = Math.min(Math.max(this.seconds * factor, CLOSEST), this.duration);
     this.goTo(at - ((at - this.from) * seconds) / this.seconds, seconds);
+  }
+
+  /** Plus and minus zoom. */
+  key(event: KeyboardEvent): boolean {
+    if (event.ctrlKey || event.metaKey || event.altKey || !"+=-".includes(event.key)) return false;
+    this.zoom(event.key === "-" ? 1.6 : 1 / 1.6);
+    return true;
   }
 
   /** Brings a time into sight. */
@@ -165,6 +188,7 @@ export class Track {
     const { pen, width, height } = this.whole;
     if (!width) return;
     const span = { from: 0, to: this.duration, width };
+    this.tell();
     this.drawPicture(span, height, colours);
     pen.clearRect(0, 0, width, height);
     pen.drawImage(this.picture.canvas, 0, 0, width, height);
@@ -176,6 +200,11 @@ export class Track {
     pen.strokeRect(xOf(span, this.from) + 0.5, 0.5, Math.max(xOf(span, this.seconds) - 1, 2), height - 1);
     pen.fillStyle = colours.accent;
     pen.fillRect(xOf(span, now) - 1, 0, 2, height);
+  }
+
+  private tell(): void {
+    const told = `All of it, small; above is ${exactly(this.from)} to ${exactly(this.from + this.seconds)}.`;
+    if (told !== this.told) this.whole.canvas.setAttribute("aria-label", (this.told = told));
   }
 
   /** What does not move is drawn once. */

@@ -28,7 +28,7 @@ export class Transport {
     title: "Play or pause (space)",
     onclick: () => this.player.toggle(),
   });
-  private readonly time = h("output", { class: "time", "aria-label": "Time" });
+  private readonly time = h("output", { class: "time", "aria-label": "Time", "aria-live": "off" });
   private readonly slide: HTMLInputElement;
   private readonly loop = button("Loop", () => this.toggleLoop(), {
     "aria-pressed": "false",
