@@ -52,9 +52,23 @@ def test_what_cannot_be_is_refused(words: list[str], match: str, tmp_path: Path)
 def test_a_folder_that_cannot_be_is_refused_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(cli, "reproduce", lambda *_, **__: pytest.fail("the work was begun"))
     (tmp_path / "file").write_text("")
-    for output in (tmp_path / "file", tmp_path / "file" / "in_it"):
-        with pytest.raises(OnbeatError, match="is not a folder; choose another folder"):
+    (tmp_path / "full" / "p1.html").mkdir(parents=True)
+    places = [(tmp_path / "file", "is not a folder"), (tmp_path / "file" / "in_it", "is not a folder")]
+    places += [(tmp_path / "full", r"cannot write .*p1\.html: a folder is there")]
+    places += [(Path("/proc/x"), "cannot write in /proc/x")] if Path("/proc/self").exists() else []
+    for output, told in places:
+        with pytest.raises(OnbeatError, match=f"{told}.*; choose another folder"):
             call("P1", "-o", str(output))
+
+
+def test_only_one_at_a_time_writes_into_a_folder_and_what_came_to_nothing_is_taken_away(tmp_path: Path):
+    with run.place_for(tmp_path / "out", ["P1"]):
+        with pytest.raises(OnbeatError, match=r"being built by process .*choose another folder"):
+            call("P1", "-o", str(tmp_path / "out"))
+        assert (tmp_path / "out").is_dir()
+    with pytest.raises(KeyboardInterrupt), run.place_for(tmp_path / "stopped", ["P1"]):
+        raise KeyboardInterrupt
+    assert not (tmp_path / "stopped").exists()
 
 
 def test_the_study_is_told_of_in_the_help(capsys: pytest.CaptureFixture[str]):

@@ -15,6 +15,14 @@ def test_motions_that_are_not_there_are_refused(tmp_path: Path):
         Data(motions=(tmp_path,)).motion_files()
 
 
+def test_a_file_that_stores_no_rate_has_the_one_that_is_told(tmp_path: Path):
+    path = tmp_path / "robot.csv"
+    path.write_text((",".join(["0", "0", "0.8", "0", "0", "0", "1"] + ["0"] * 29) + "\n") * 12)
+    assert Data((path,), fps=60.0).motion(path).fps == 60.0
+    with pytest.raises(OnbeatError, match="0 frames a second cannot be"):
+        Data((path,), fps=0.0)
+
+
 def test_folders_and_files_are_gathered(tmp_path: Path):
     inside = tmp_path / "clips" / "one.bvh"
     inside.parent.mkdir()

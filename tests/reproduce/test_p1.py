@@ -20,7 +20,6 @@ from onbeat.reproduce.data import Data
 from onbeat.reproduce.p1_choice import choice_before
 from onbeat.reproduce.p1_claims import claims
 from onbeat.reproduce.p1_dances import METHODS, Danced, Method, dance
-from onbeat.reproduce.p1_figures import features_figure
 from onbeat.reproduce.p1_songs import Tune, found, interval, tunes
 from onbeat.reproduce.p1_tables import beat_table
 from onbeat.reproduce.result import FigureResult, PaperResult, TableResult
@@ -107,6 +106,14 @@ def test_a_claim_that_so_few_songs_cannot_tell_from_chance_is_left_open(danced: 
     assert holds(followed(0.1, 0.1), followed(0.5, 0.0)) is False
 
 
+def test_songs_that_are_tracked_are_danced_to_as_in_the_paper_and_all_where_none_is(heard: Tune):
+    lost = replace(heard, published=replace(heard.published, beats=heard.published.beats + 0.15), title="lost")
+    assert [tune.title for tune in p1.danced_to([lost, heard, lost, heard, heard], 2)] == ["plain", "plain"]
+    assert len(p1.danced_to([lost, lost], 3)) == 2
+    unknown = replace(lost, known="heard")
+    assert p1.danced_to([unknown, heard], 3) == [unknown, heard]
+
+
 def test_the_decision_that_is_drawn_is_the_one_that_was_taken(danced: Danced, library: MoveLibrary):
     made, seen = danced.dance, 0
     for move in range(1, min(len(made.plan.moves) - 1, 5)):
@@ -158,11 +165,20 @@ def test_what_is_told_of_the_rhythm_is_measured_on_the_dance(danced: Danced, res
     assert table.rows[0].ours == f"{share:.2f}"
 
 
+def test_eq_12_counted_from_the_mean_is_another_dance_beside_the_one_as_printed(danced: Danced, result: PaperResult):
+    table = next(part for part in result.parts if part.number == "Sec. VI, intensity")
+    assert isinstance(table, TableResult)
+    assert table.columns.index("… Eq. 12 from the mean") == 4
+    speeds = next(row for row in table.rows if row.label.startswith("mean speed"))
+    assert float(speeds.others[1]) <= float(speeds.ours) == pytest.approx(danced.scores["hand_speed"], abs=0.01)
+
+
 def test_one_composed_song_is_a_table_too(heard: Tune):
     table = beat_table([replace(heard, known="composed")], composed=True)
     assert [row.paper for row in table.rows] == ["0.598 s (100)", "10 of 13"]
 
 
-def test_the_same_figure_is_the_same_bytes(danced: Danced):
-    first, again = (features_figure(danced.features, 1.0, 5.0) for _ in range(2))
-    assert first == again
+def test_the_same_figure_is_the_same_bytes(library: MoveLibrary, result: PaperResult):
+    figure = next(part for part in result.parts if part.number == "Fig. 2")
+    assert isinstance(figure, FigureResult)
+    assert p1._figure_2(library).svg == figure.svg

@@ -1,5 +1,6 @@
 """P2 done again: takes, what is observed of them, methods on a robot's limits, and the page's parts."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,8 @@ from onbeat.reproduce.p2_observed import detail_left, kept, observed
 from onbeat.reproduce.p2_seen import Seen
 from onbeat.reproduce.p2_seen_claims import seen_claims
 from onbeat.reproduce.p2_takes import Solo, real_takes, troupe_takes
+from onbeat.reproduce.p2_tried import Tried
+from onbeat.reproduce.p2_tried_claims import tried_claims
 from onbeat.reproduce.result import FigureResult
 from onbeat.retime.bspline import Spline
 from onbeat.retime.sources import Table
@@ -93,6 +96,19 @@ def test_detail_is_all_there_in_the_wish_and_gone_in_its_mean(asked):
     assert asked.slack < asked.scaled["pollard2002"].detail
 
 
+def test_a_claim_that_the_filters_gain_decides_is_left_open(asked):
+    def holds(gained: float, slack: float) -> bool | None:
+        own = asked.scaled[PUBLISHED].detail
+        loose = replace(asked.scaled["pollard2002"], detail=own + gained)
+        one = replace(asked, slack=own + slack, scaled={**asked.scaled, "pollard2002": loose})
+        every = {(captured, speed): one for captured in (True, False) for speed in (1.0, 1.2)}
+        return tried_claims(Tried(None, None, every, {}, {}, "no engine"))[1].holds
+
+    assert holds(0.1, -0.1) is None
+    assert holds(-0.1, -0.1) is True
+    assert holds(0.1, 0.1) is False
+
+
 def test_layers_are_lowered_the_finest_first_and_the_limit_is_where_it_is_enlarged(asked):
     result = asked.scaled[PUBLISHED].result
     share, broken = lowered(result)
@@ -106,7 +122,7 @@ def test_layers_are_lowered_the_finest_first_and_the_limit_is_where_it_is_enlarg
 def test_real_takes_are_observed_and_danced_where_nothing_can_be_simulated(tmp_path, monkeypatch):
     monkeypatch.setattr("onbeat.reproduce.p2_tried.why_not", lambda: "no engine")
     monkeypatch.setattr("onbeat.reproduce.p2_wish.why_not", lambda: "no engine")
-    monkeypatch.setattr("onbeat.reproduce.p2_takes.LONGEST", 4.0)
+    monkeypatch.setattr("onbeat.reproduce.p2_takes.LONGEST", 3.0)
     for number, take in enumerate(troupe_takes(0, (1.0, 1.5), 1).takes):
         path = tmp_path / f"take_{number}.bvh"
         write_motion(take.motion, path)

@@ -13,11 +13,11 @@ from onbeat.errors import OnbeatError
 from onbeat.examples.dancers import DANCERS
 from onbeat.formats import write_motion
 from onbeat.keyposes.candidates import Thresholds
-from onbeat.keyposes.extract import find_keyposes
+from onbeat.keyposes.extract import Reading, find_keyposes
 from onbeat.keyposes.unnatural import Unnatural
 from onbeat.recognition.protocols import PAPER as COUNTED
 from onbeat.recognition.protocols import PaperTables, Score
-from onbeat.reproduce import p3_recognition
+from onbeat.reproduce import p3_recognition, p3_thresholds
 from onbeat.reproduce.data import Data
 from onbeat.reproduce.p3 import PAPER
 from onbeat.reproduce.p3_dances import BESIDE, CYCLES, Danced, embedded_dances, marked_dances
@@ -26,7 +26,7 @@ from onbeat.reproduce.p3_extraction import TRUE, Extraction, extract, extraction
 from onbeat.reproduce.p3_files import Take, one_dance
 from onbeat.reproduce.p3_lowdim import Spaces, grouped
 from onbeat.reproduce.p3_recognition import recognised, recognition_claims, recognition_tables
-from onbeat.reproduce.p3_thresholds import level_from, swept, threshold_claims, threshold_figure
+from onbeat.reproduce.p3_thresholds import globally_learned, level_from, swept, threshold_claims, threshold_figure
 from onbeat.reproduce.result import FigureResult, TableResult
 
 
@@ -102,6 +102,20 @@ def test_curves_over_thresholds_are_level_where_they_are(two: list[Danced]):
     assert "precision at T1 = 0.0 of 10%" in worst.found
     drawn = threshold_figure(sweeps, "T2")
     assert (drawn.number, drawn.svg[:5]) == ("Fig. 5", b"<?xml")
+
+
+def test_curves_by_the_global_energy_alone_hold_what_was_learned_by_it_alone(
+    two: list[Danced], monkeypatch: pytest.MonkeyPatch
+):
+    orders: list[str] = []
+
+    def learned(dances: list[Danced], readings: list[Reading], told: object) -> tuple[Thresholds, ...]:
+        orders.extend(reading.options.order for reading in readings)
+        return (Thresholds(1.0, 1.0),) * len(dances)
+
+    monkeypatch.setattr(p3_thresholds, "learned", learned)
+    assert list(globally_learned(two)) == ["as published", "ours"]
+    assert orders == ["global"] * 4
 
 
 def test_the_worst_posture_is_unnatural_in_one_space_alone():
@@ -181,6 +195,7 @@ def test_files_go_all_the_way(tmp_path: Path):
     assert {"Fig. 9", "Fig. 11", "Fig. 13", "Table 2", "Table 3"} <= set(numbers)
     assert len(set(numbers)) == len(numbers)
     assert result.our_data.startswith("8 files, 0 of them")
+    assert "The tensor tells tasks that it knows (47 of 48)." in [claim.said for claim in result.claims]
     assert "no Table 1" in " ".join(result.differs)
     assert [name for name, _ in result.files] == ["study.html"]
     for part in result.parts:

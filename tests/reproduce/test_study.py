@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import httpx
+import msgspec
 import numpy as np
 import pytest
 
@@ -21,7 +23,7 @@ from onbeat.reproduce.study_table import outcome_of, study_table
 from own_loop import run
 
 
-def person(number: int, chosen: str, motions: str = "xyz", a: str = "keyposes") -> PersonAnswers:
+def person(number: int, chosen: str, motions: Sequence[str] = "xyz", a: str = "keyposes") -> PersonAnswers:
     """Somebody's answers, a letter each."""
     b = "uniform" if a == "keyposes" else "keyposes"
     answers = [Answer(motion, a, b, which) for motion, which in zip(motions, chosen, strict=True)]
@@ -124,7 +126,8 @@ def test_files_of_the_page_for_one_person_are_read_too(tmp_path: Path):
         (document(PersonAnswers("../../etc/passwd", person(0, "aaa").answers)).to_json(), "sixteen"),
         (document(person(0, "xyz")).to_json(), "'a' or 'b'"),
         (document(PersonAnswers(f"{0:016x}", [])).to_json(), "0 answers"),
-        (b'{"people": ' + b"[" * 5000, "is not a file of answers"),
+        (b'{"people": ' + b"[" * 5000, r"is not a file of answers that study\.html saved"),
+        (b'{"version": 1, "dims": 3}', r"is not a file of answers that study\.html or judge\.html saved"),
     ],
 )
 def test_what_is_no_answers_is_refused(tmp_path: Path, data: bytes, told: str):
@@ -132,6 +135,17 @@ def test_what_is_no_answers_is_refused(tmp_path: Path, data: bytes, told: str):
     path.write_bytes(data)
     with pytest.raises(OnbeatError, match=told):
         read_answers([path])
+    with pytest.raises(OnbeatError, match="is no file"):
+        read_answers([tmp_path])
+
+
+def test_names_in_answers_neither_hide_what_they_are_nor_steer_a_terminal(tmp_path: Path):
+    answers = person(0, "a", ["\x1b[31mpeople"]).answers
+    path = tmp_path / "answers.json"
+    path.write_bytes(msgspec.json.encode(AnswersDocument(1, 3, answers)).replace(b"\\u001b[31mpeople", b'\\"people\\"'))
+    assert read_answers([path]).people[0].answers[0].motion == '"people"'
+    row = study_table(document(PersonAnswers(f"{0:016x}", answers))).rows[0]
+    assert row.label == "sequence 1 (ours: ?[31mpeople)"
 
 
 @pytest.fixture(scope="module")

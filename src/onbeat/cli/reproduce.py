@@ -18,7 +18,7 @@ from onbeat.reproduce.data import Data
 from onbeat.reproduce.document import results_document
 from onbeat.reproduce.paper import chosen
 from onbeat.reproduce.result import PaperResult, tally
-from onbeat.reproduce.run import COSTS, check_place, reproduce, write_results
+from onbeat.reproduce.run import COSTS, place_for, reproduce, write_results
 
 reproduce_app = cyclopts.App(name="reproduce", help="Do the papers' experiments again, beside what they print.")
 reproduce_app.command(
@@ -44,6 +44,7 @@ def reproduce_command(
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])] = Path("reproduced"),
     motions: Files = None,
     songs: Files = None,
+    fps: float | None = None,
     quick: Flag = False,
     seed: int = 0,
     json: Flag = False,
@@ -59,10 +60,15 @@ def reproduce_command(
     output
         A folder for a page a paper, the drawings, ``index.html`` and ``results.json``.
     motions
-        Motion files and folders of them instead of the embedded troupe, for one paper: clips of dances for P1, takes
-        of one dance at several speeds with their beats for P2, takes of dances with their beats for P3.
+        Motion files and folders of them instead of the embedded troupe, for one paper. P1: clips of dances. P2: takes
+        of one dance at several speeds, each with its beats, ``NAME.beats`` (a second a line) beside ``NAME.bvh``. P3:
+        takes of dances with their beats and, where known, their keyposes, ``NAME.keyposes.csv``; names like
+        ``task_person_1.bvh`` say who dances what.
     songs
-        Audio files instead of the embedded songs, for one paper.
+        Audio files instead of the embedded songs, for P1; beats in ``NAME.beats`` beside ``NAME.mp3`` are taken as
+        true.
+    fps
+        Frames a second of motion files that store none (AMC, a robot's CSV).
     quick
         A first look: fewer repetitions, shorter songs, rougher figures.
     seed
@@ -72,10 +78,8 @@ def reproduce_command(
     """
     if not 0 <= seed < 2**63:
         raise OnbeatError(f"--seed {seed}: give a whole number from 0 to 2^63 - 1")
-    data = Data(tuple(motions or ()), tuple(songs or ()), quick, seed)
-    keys = chosen(papers or ())
-    check_place(output)
-    with warnings_as_lines(), Stages() as stages:
+    keys, data = chosen(papers or ()), Data(tuple(motions or ()), tuple(songs or ()), quick, seed, fps)
+    with warnings_as_lines(), place_for(output, keys), Stages() as stages:
         results = reproduce(keys, data, _together(stages, keys), workers=WORKERS)
         write_results(output, results, quick=quick, seed=seed)
     if json:

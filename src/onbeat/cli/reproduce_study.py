@@ -33,6 +33,7 @@ def study_command(
     motions: Annotated[
         list[Path] | None, cyclopts.Parameter(consume_multiple=True, negative=(), json_list=False)
     ] = None,
+    fps: float | None = None,
     sequences: int = SEQUENCES,
     seed: int = 0,
     host: str = "127.0.0.1",
@@ -54,6 +55,8 @@ def study_command(
         Make the page and stop; it can be opened as a file, and answers saved from it.
     motions
         Motion files of one dance, one of each person, instead of the embedded troupe.
+    fps
+        Frames a second of motion files that store none (AMC, a robot's CSV).
     sequences
         Dances that each person is asked about.
     seed
@@ -72,7 +75,7 @@ def study_command(
     if files or table:
         _print(files or _answers_in(given[0]), json)
         return
-    _make(given[0], Data(tuple(motions or ()), seed=seed), sequences)
+    _make(given[0], Data(tuple(motions or ()), seed=seed, fps=fps), sequences)
     if page_only:
         print(given[0] / PAGE)  # noqa: T201
         return

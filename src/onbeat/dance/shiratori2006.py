@@ -227,7 +227,8 @@ def _chosen(roads: Roads, parts: Components, frame: int, t: int, ahead: int) -> 
 def _best(values: Array) -> Ints:
     """Places of the ``BEST_PATHS`` highest values that are ``NEAR`` the highest."""
     best = np.argsort(-values, kind="stable")[:BEST_PATHS]
-    return best[values[best] >= NEAR * values[best[0]]]
+    top = float(values[best[0]])
+    return best[values[best] >= (NEAR * top if top >= 0 else top / NEAR)]
 
 
 def _diagonal(table: Array, k: int, frame: int, most: int) -> Array:

@@ -51,8 +51,8 @@ class AnswersDocument(msgspec.Struct, frozen=True):
     answers: Annotated[list[Answer], Said(description="in the order of the trials")]
 
     @classmethod
-    def from_json(cls, data: bytes, source: str = "answers.json") -> AnswersDocument:
-        """Read answers; a ``MetricError`` says what is wrong with them.
+    def from_json(cls, data: bytes, source: str = "answers.json", page: str = "judge.html") -> AnswersDocument:
+        """Read answers; a ``MetricError`` says what is wrong with them, and which ``page`` saves such files.
 
         Examples
         --------
@@ -60,7 +60,7 @@ class AnswersDocument(msgspec.Struct, frozen=True):
         Traceback (most recent call last):
         onbeat.errors.MetricError: answers.json: version 7; this onbeat reads version 1
         """
-        found = decoded(data, cls, VERSION, source, "a file of answers that judge.html saved")
+        found = decoded(data, cls, VERSION, source, f"a file of answers that {page} saved")
         for number, answer in enumerate(found.answers):
             if sorted((answer.a, answer.b)) != sorted(SPACES) or answer.chosen not in ("a", "b"):
                 raise MetricError(

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from onbeat.errors import OnbeatError
+
+if TYPE_CHECKING:
+    from onbeat.motion import Motion
 
 
 @dataclass(frozen=True)
@@ -18,12 +22,23 @@ class Data:
     songs : audio files; empty for the embedded songs.
     quick : fewer repetitions and shorter songs, for a first look: figures come out rougher.
     seed : of the embedded troupe and songs, and of everything that is drawn by chance.
+    fps : frames a second of motion files that store none.
+
+    Raises
+    ------
+    OnbeatError
+        If there is no such rate.
     """
 
     motions: tuple[Path, ...] = ()
     songs: tuple[Path, ...] = ()
     quick: bool = False
     seed: int = 0
+    fps: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.fps is not None and not 0.1 <= self.fps <= 10000:
+            raise OnbeatError(f"{self.fps:g} frames a second cannot be; give a rate from 0.1 to 10000")
 
     @property
     def embedded(self) -> bool:
@@ -48,3 +63,15 @@ class Data:
             names = ", ".join(map(str, self.motions))
             raise OnbeatError(f"no motion file in {names}; give BVH, ASF/AMC, C3D or npz files to --motions")
         return found
+
+    def motion(self, path: Path) -> Motion:
+        """A motion file, at the rate that was given where it stores none.
+
+        Raises
+        ------
+        OnbeatError
+            If it cannot be read.
+        """
+        from onbeat.formats.read import read_motion
+
+        return read_motion(path, fps=self.fps)

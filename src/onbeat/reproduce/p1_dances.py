@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,18 +33,21 @@ class Method:
     search : the method of ``onbeat dance``.
     published : whether the song is heard as in the paper.
     rhythm_only : whether the music's intensity is left out.
+    centred : whether it is counted from its mean, which makes of the products that Eq. 12 sums a correlation.
     warp : whether stops are then moved onto beats.
     """
 
     search: str
     published: bool = False
     rhythm_only: bool = False
+    centred: bool = False
     warp: bool = True
 
 
 METHODS = {
     "published": Method("shiratori2006", published=True, warp=False),
     "published rhythm": Method("shiratori2006", published=True, rhythm_only=True, warp=False),
+    "published centred": Method("shiratori2006", published=True, centred=True, warp=False),
     "ours": Method("optimal"),
     "ours rhythm": Method("optimal", rhythm_only=True),
     "walk": Method("walk"),
@@ -84,7 +87,7 @@ def open_library(data: Data) -> MoveLibrary:
     if data.embedded:
         return embedded_library(data.seed, mirror=False)
     data.motion_files()  # says what is wrong with the paths
-    return build_or_open(data.motions, mirror=False)
+    return build_or_open(data.motions, mirror=False, fps=data.fps)
 
 
 def true_beats(tune: Tune) -> Times:
@@ -101,6 +104,8 @@ def dance(tune: Tune, library: MoveLibrary, method: Method, seed: int) -> Danced
         If no beats are heard in the song, or the clips cannot fill it.
     """
     song = tune.published if method.published else tune.ours
+    if method.centred and len(song.intensity):
+        song = replace(song, intensity=song.intensity - song.intensity.mean())
     try:
         plain = make_dance(
             song, library, fps=FPS, seed=seed, method=method.search, rhythm_only=method.rhythm_only, warp=False

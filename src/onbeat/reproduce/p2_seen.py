@@ -71,7 +71,7 @@ def see(data: Data, step: Callable[[float, str], None]) -> Seen:
         If real takes are no takes of one dance at two speeds or more.
     """
     if not data.embedded:
-        takes = real_takes(data.motion_files())
+        takes = real_takes(data.motion_files(), data.fps)
         if len(takes.speeds) < 2:
             raise MetricError("all takes have one tempo; what changes in faster music needs two or more")
         step(0.0, "observing takes")

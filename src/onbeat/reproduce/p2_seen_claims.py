@@ -52,7 +52,10 @@ def _more_with_layers(seen: Seen) -> Claim:
         ends = [difference(control, played, layers) for layers in (1, 3)]
         holds = holds and grown > ends[1] / max(ends[0], 1e-9)
         found += f"; merely played faster {ends[0]:.1f}° and {ends[1]:.1f}°"
-        found += ". The troupe's ornaments are in its hands, forearms and head; its shoulders only move less"
+        found += (
+            ". The troupe's moves shrink as a whole in faster music, which one layer has, too; its ornaments are in "
+        )
+        found += "its hands, forearms and head, not in its shoulders"
     return Claim(SAID[1], bool(holds), found)
 
 

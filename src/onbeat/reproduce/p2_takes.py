@@ -133,10 +133,11 @@ def troupe_solo(dancer: int, seed: int = 0, cycles: int = 2, dance: str = DANCE)
     return Solo(clip.motion, clip.beats, clip.keyposes)
 
 
-def real_takes(paths: Sequence[Path]) -> Takes:
+def real_takes(paths: Sequence[Path], fps: float | None = None) -> Takes:
     """Takes in files, each with ``NAME.beats`` beside it; the first beat of each is the same place of the dance.
 
-    Speeds are those of the tempi, 1 for the slowest; keyposes lie in ``NAME.keyposes.csv`` beside the first.
+    Speeds are those of the tempi, 1 for the slowest; keyposes lie in ``NAME.keyposes.csv`` beside the first. ``fps`` is
+    the rate of files that store none.
 
     Raises
     ------
@@ -148,7 +149,7 @@ def real_takes(paths: Sequence[Path]) -> Takes:
     without = [path for path in paths if not path.with_suffix(BEATS).is_file()]
     if without:
         raise MetricError(f"no beats beside {without[0].name}: write {without[0].stem}{BEATS}, a second a line")
-    motions = [read_motion(path).replace(name=path.name) for path in paths]
+    motions = [read_motion(path, fps=fps).replace(name=path.name) for path in paths]
     beats = [read_beats(path.with_suffix(BEATS)).times for path in paths]
     tempi = np.array([60.0 / float(np.median(np.diff(own))) for own in beats])
     takes = [Take(*one) for one in zip(motions, beats, speeds_from(tempi).tolist(), strict=True)]
@@ -159,15 +160,17 @@ def real_takes(paths: Sequence[Path]) -> Takes:
     return Takes(f"{paths[0].stem} and {len(paths) - 1} more", tuple(takes), known)
 
 
-def real_solo(path: Path) -> Solo:
+def real_solo(path: Path, fps: float | None = None) -> Solo:
     """A real dance for a robot, its first ``LONGEST`` seconds: beats and keyposes beside it, else its own.
+
+    ``fps`` is the rate of a file that stores none.
 
     Raises
     ------
     OnbeatError
         If it cannot be read, or has no pulse of its own.
     """
-    whole = read_motion(path)
+    whole = read_motion(path, fps=fps)
     motion = whole[: max(round(LONGEST * whole.fps), 2)].replace(name=path.stem)
     beside, marks = path.with_suffix(BEATS), path.with_name(path.stem + MARKS)
     beats = read_beats(beside).times if beside.is_file() else motion_beats(motion)

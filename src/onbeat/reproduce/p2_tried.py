@@ -72,7 +72,10 @@ def tried(data: Data, step: Callable[[float, str], None]) -> Tried:
     """
     robot = robot_named(ROBOT)
     step(0.0, f"finding {robot.body.name}'s angles")
-    solo = troupe_solo(0, data.seed, 1 if data.quick else 2) if data.embedded else real_solo(data.motion_files()[0])
+    if data.embedded:
+        solo = troupe_solo(0, data.seed, 1 if data.quick else 2)
+    else:
+        solo = real_solo(data.motion_files()[0], data.fps)
     own = {captured: on_robot(solo, robot, captured=captured) for captured in WISHES}
     step(0.25, "inside the robot's limits, by all methods")
     tables = {captured: upper_table(robot, own[captured]) for captured in WISHES}

@@ -21,7 +21,6 @@ from onbeat.examples.dances import DANCES, perform_dance
 from onbeat.examples.performer import Performance, perform
 from onbeat.examples.rehearsal import rehearse
 from onbeat.examples.repertoire import ARM_CIRCLES, HIP_CIRCLES, TURN
-from onbeat.formats.read import read_motion
 from onbeat.keyposes.extract import beats_inside
 from onbeat.keyposes.marks import read_marks
 from onbeat.motion import Motion
@@ -118,7 +117,7 @@ def marked_dances(data: Data) -> list[Danced]:
     for path in data.motion_files():
         marks, beats = path.with_name(path.stem + MARKS), beats_beside(path)
         if marks.is_file() and beats is not None:
-            motion = read_motion(path)
+            motion = data.motion(path)
             truth = read_marks(marks, (len(motion) - 1) / motion.fps)
             inside = beats_inside(beats, motion)
             at = np.abs(truth[:, None] - inside[None]).argmin(axis=1)

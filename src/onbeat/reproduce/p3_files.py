@@ -15,7 +15,6 @@ import numpy as np
 
 from onbeat._shapes import Times
 from onbeat.errors import OnbeatError, PlanError
-from onbeat.formats.read import read_motion
 from onbeat.keyposes.candidates import minima
 from onbeat.keyposes.energy import energy_of
 from onbeat.keyposes.extract import DEFAULT, find_keyposes
@@ -49,7 +48,7 @@ def takes_of(data: Data) -> list[Take]:
         parts = path.stem.rsplit("_", 2)
         named = len(parts) == 3 and parts[2].isdigit() and int(parts[2]) < 1 << 31
         task, person, number = (parts[0], parts[1], int(parts[2])) if named else ("dance", path.stem, 0)
-        found.append(Take(path, read_motion(path), task, person, number))
+        found.append(Take(path, data.motion(path), task, person, number))
     return found
 
 

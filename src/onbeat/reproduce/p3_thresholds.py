@@ -12,7 +12,7 @@ from onbeat._shapes import Array, frozen
 from onbeat.keyposes.candidates import Thresholds
 from onbeat.keyposes.extract import Reading
 from onbeat.reproduce.p3_dances import Danced
-from onbeat.reproduce.p3_extraction import LEARNED, beat_score, inside
+from onbeat.reproduce.p3_extraction import LEARNED, beat_score, inside, learned
 from onbeat.reproduce.result import Claim, FigureResult
 from onbeat.viewer.figures import figure_bytes, new_figure
 
@@ -42,6 +42,18 @@ class Sweeps:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", frozen(self.values))
+
+
+def globally_learned(dances: Sequence[Danced]) -> dict[str, tuple[Thresholds, ...]]:
+    """By method, thresholds of each dance that were learned from others' dances by the global energy alone.
+
+    Those of Table 1 leave to the local energy what the global one does not find, and would be held beside themselves.
+    """
+    readings = {
+        method: [Reading(one.motion, one.beats, replace(options, order="global")) for one in dances]
+        for method, options in LEARNED.items()
+    }
+    return {method: learned(dances, own, lambda share: None) for method, own in readings.items()}
 
 
 def swept(dances: Sequence[Danced], held: Mapping[str, Sequence[Thresholds]], values: Array = VALUES) -> Sweeps:
@@ -79,9 +91,9 @@ def threshold_figure(sweeps: Sweeps, name: str) -> FigureResult:
         f"Recall and precision over {name}",
         figure_bytes(_drawn(sweeps, name), "svg"),
         f"Recall and precision with {name} from 0 to 10, by the global energy alone: {told}.",
-        f"The same, {other} held where it was learned ({_held(sweeps, other)}). The units are the mean "
-        "energy, since the paper does not tell its own. Dotted: the precision of taking every beat. Where nothing is "
-        "found precision counts as 0.",
+        f"The same, {other} held where it was learned by the global energy alone ({_held(sweeps, other)}). The units "
+        "are the mean energy, since the paper does not tell its own. Dotted: the precision of taking every beat. Where "
+        "nothing is found precision counts as 0.",
         " ".join(_flat(sweeps, method, name) for method in sweeps.curves),
     )
 

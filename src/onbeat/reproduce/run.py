@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from onbeat.errors import OnbeatError
 from onbeat.files import make_folder, write_atomically
+from onbeat.moves.lock import building
 from onbeat.reproduce.data import Data
 from onbeat.reproduce.document import drawing_name, results_document
 from onbeat.reproduce.page import index_page, page_name, paper_page
@@ -20,9 +21,9 @@ from onbeat.reproduce.side_by_side import side_by_side
 
 Step = Callable[[str, float, str], None]
 """Told the paper's key, the share of it that is done, and what of it is done now."""
-
-
-COSTS = {"P3": 4.0, "P2": 2.5, "P1": 2.0}
+RESULTS, INDEX = "results.json", "index.html"
+"""What is written beside the pages of the papers."""
+COSTS = {"P1": 3.5, "P2": 1.5, "P3": 1.0}
 """Minutes that a paper takes, about; the longest is begun first."""
 
 
@@ -65,23 +66,33 @@ def reproduce_one(key: str, data: Data, step: Callable[[float, str], None]) -> P
         return paper(key).reproduce(data, step)
 
 
-def check_place(folder: str | Path) -> None:
-    """Refuse a folder into which nothing can be written: said before the work, not after it; nothing is made.
+@contextmanager
+def place_for(folder: str | Path, keys: Sequence[str]) -> Generator[None, None, None]:
+    """A folder into which results can be written, held while they are made: said before the work, not after it.
+
+    It is made if it is not there, and taken away again if nothing came of it.
 
     Raises
     ------
     OnbeatError
-        If it is a file or lies in one, or there is no right to write there.
+        If it cannot be made or written, somebody else is at work in it, or a file to be written is a folder there.
     """
     place = Path(folder)
+    _refuse_a_file(place)
+    with building(place):
+        taken = [name for name in (*map(page_name, keys), RESULTS, INDEX) if (place / name).is_dir()]
+        if taken:
+            raise OnbeatError(f"cannot write {place / taken[0]}: a folder is there; choose another folder")
+        yield
+
+
+def _refuse_a_file(place: Path) -> None:
     try:
         there = next(one for one in (place, *place.absolute().parents) if one.exists())
     except OSError as error:
         raise OnbeatError(f"cannot write into {place}: {error.strerror or error}; choose another folder") from None
     if not there.is_dir():
         raise OnbeatError(f"cannot write into {place}: {there} is not a folder; choose another folder")
-    if not os.access(there, os.W_OK | os.X_OK):
-        raise OnbeatError(f"cannot write into {place}: no right to write in {there}; choose another folder")
 
 
 def write_results(
@@ -95,8 +106,8 @@ def write_results(
         drawn = [part for part in result.parts if isinstance(part, FigureResult)]
         files += [(drawing_name(result.key, figure), figure.svg) for figure in drawn]
         files += [(page_name(result.key), paper_page(result, keys)), *result.files]
-    files.append(("results.json", results_document(results, quick=quick, seed=seed).to_json()))
-    files.append(("index.html", index_page(results)))
+    files.append((RESULTS, results_document(results, quick=quick, seed=seed).to_json()))
+    files.append((INDEX, index_page(results)))
     for name, content in files:
         if (place / name).parent != place:
             make_folder((place / name).parent)

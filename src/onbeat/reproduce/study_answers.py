@@ -12,13 +12,14 @@ import msgspec
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.decoding import decoded
 from onbeat.keyposes.judging import SPACES, Answer, AnswersDocument
+from onbeat.reproduce.study import PAGE
 
 VERSION = 1
 LARGEST = 16 << 20
 """Bytes of a file of answers: thousands of people."""
 MOST_ANSWERS = 1000
 """Of one person."""
-WHAT = "a file of answers that the study's page saved"
+WHAT = f"a file of answers that {PAGE} saved"
 _ID = re.compile(r"[0-9a-f]{16}")
 
 Said = msgspec.Meta
@@ -63,7 +64,7 @@ def _check(person: PersonAnswers, source: str) -> None:
     if not _ID.fullmatch(person.id) or not 1 <= len(person.answers) <= MOST_ANSWERS:
         raise OnbeatError(
             f"{source}: {len(person.answers)} answers of {person.id[:40]!r}; 1 to {MOST_ANSWERS} of an id of sixteen "
-            "hexadecimal digits are expected: save them from the study's page"
+            f"hexadecimal digits are expected: save them from {PAGE}"
         )
     for number, answer in enumerate(person.answers):
         if sorted((answer.a, answer.b)) != sorted(SPACES) or answer.chosen not in ("a", "b"):
@@ -100,19 +101,33 @@ def read_answers(paths: Iterable[Path]) -> StudyDocument:
             if known[0] != person:
                 raise OnbeatError(f"{path} and {known[1]} have different answers by {person.id}; leave one out")
     if first is None or not people:
-        raise OnbeatError("no answers; give files that the study's page saved, or the folder in which they lie")
+        raise OnbeatError(f"no answers; give files that {PAGE} saved, or the folder in which they lie")
     return StudyDocument(VERSION, first[1].study, first[1].dims, [person for person, _ in people.values()])
 
 
 def _read(path: Path) -> StudyDocument:
     try:
+        if path.exists() and not path.is_file():  # a pipe would be waited for
+            raise OnbeatError(f"{path} is no file; give files that {PAGE} saved")
         if path.stat().st_size > LARGEST:
             raise OnbeatError(f"{path} is larger than {LARGEST >> 20} MB and no file of answers")
         data = path.read_bytes()
     except OSError as error:
-        raise OnbeatError(f"cannot read {path}: {error.strerror or error}; save it from the study's page") from None
-    if b'"people"' in data:
+        raise OnbeatError(f"cannot read {path}: {error.strerror or error}; save it from {PAGE}") from None
+    if not _of_one(data):
         return StudyDocument.from_json(data, str(path))
     # Saved from judge.html: nothing tells who it was, so that each file is somebody else.
-    alone = AnswersDocument.from_json(data, str(path))
+    alone = AnswersDocument.from_json(data, str(path), f"{PAGE} or judge.html")
     return StudyDocument(VERSION, "", alone.dims, [PersonAnswers(str(path), alone.answers)])
+
+
+class _Kind(msgspec.Struct):
+    people: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+
+
+def _of_one(data: bytes) -> bool:
+    """Whether something is no study's document: nobody is listed in it."""
+    try:
+        return msgspec.json.decode(data, type=_Kind).people is msgspec.UNSET
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        return False

@@ -15,6 +15,8 @@ from onbeat.reproduce.study_answers import StudyDocument
 PAPER = ((32, 34), (29, 34), (31, 34))
 """How many of how many people chose keyposes, of the paper's three sequences."""
 RESAMPLES = 4000
+LONGEST_NAME = 60
+"""Letters of a motion's name that are printed."""
 
 
 class Outcome(NamedTuple):
@@ -56,7 +58,7 @@ def outcome_of(document: StudyDocument) -> Outcome:
     """
     answers = [answer for person in document.people for answer in person.answers]
     if not answers:
-        raise OnbeatError("no answers; give files that the study's page saved")
+        raise OnbeatError("no answers; give files that study.html saved")
     names = sorted({answer.motion for answer in answers})
     own = [(sum(map(chose_keyposes, one.answers)), len(one.answers)) for one in document.people if one.answers]
     decided = [2 * right > of for right, of in own if 2 * right != of]
@@ -93,12 +95,17 @@ def study_table(document: StudyDocument | None) -> TableResult:
     for number in range(max(len(PAPER), len(ours))):
         name, own = ours[number] if number < len(ours) else ("", None)
         paper = verdict(*PAPER[number]) if number < len(PAPER) else None
-        rows.append(_row(f"sequence {number + 1}" + (f" (ours: {name})" if name else ""), paper, own))
+        rows.append(_row(f"sequence {number + 1}" + (f" (ours: {_plain(name)})" if name else ""), paper, own))
     total = verdict(*(sum(column) for column in zip(*PAPER, strict=True)))
     rows.append(_row("total", total, found.total if found else None))
     if found is not None and document is not None:
         rows += _more(found, len(document.people))
     return TableResult("Table 2", "How often people chose keyposes", tuple(rows), HEADS, _remark(document))
+
+
+def _plain(name: str) -> str:
+    """A name as it can be printed: files come from anywhere, and what steers a terminal is left out."""
+    return "".join(letter if letter.isprintable() else "?" for letter in name[:LONGEST_NAME])
 
 
 HEADS = (
