@@ -10,6 +10,8 @@ from typing import Any
 
 import pytest
 
+from browser.pictures import Pictures, own_fonts
+
 FLAGS = (
     "--no-sandbox",
     "--use-gl=angle",
@@ -52,13 +54,14 @@ class OpenPage:
 
 
 @pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     path = os.environ.get("ONBEAT_CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
     if not path:
         pytest.skip("no chromium found: install it, or set ONBEAT_CHROMIUM to its path")
     with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        fonts = own_fonts(tmp_path_factory.mktemp("fonts"))
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS, env=fonts)
         yield browser
         browser.close()
 
@@ -75,3 +78,11 @@ def open_page(chromium: Any) -> Iterator[Any]:
     yield open_
     for context in contexts:
         context.close()
+
+
+@pytest.fixture
+def pictures(tmp_path: Path) -> Iterator[Pictures]:
+    """Holds pages against the pictures of them that are kept."""
+    made = Pictures(tmp_path)
+    yield made
+    made.end()

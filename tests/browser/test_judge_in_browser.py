@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from browser.pictures import Pictures
 from folk_dancers import spaces_of
 from onbeat.keyposes.judging import AnswersDocument, trials, verdict_of
 from onbeat.viewer.judge_page import write_judge_page
@@ -15,12 +16,21 @@ from onbeat.viewer.judge_page import write_judge_page
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture
-def opened(tmp_path: Path, open_page: Any) -> Any:
+@pytest.fixture(scope="module")
+def opened_page(tmp_path_factory: pytest.TempPathFactory, open_page: Any) -> Any:
     found = spaces_of(3)
-    path = tmp_path / "judge.html"
+    path = tmp_path_factory.mktemp("judge") / "judge.html"
     write_judge_page(path, found, trials([one.person for one in found.taught], np.random.default_rng(1)))
     return open_page(path)
+
+
+@pytest.fixture
+def opened(opened_page: Any) -> Any:
+    """As somebody finds it who was never there."""
+    opened_page.page.evaluate("localStorage.clear()")
+    opened_page.page.reload()
+    opened_page.complaints.clear()
+    return opened_page
 
 
 def drawn_at(page: Any, time: float) -> dict[str, np.ndarray]:
@@ -35,6 +45,11 @@ def drawn_at(page: Any, time: float) -> dict[str, np.ndarray]:
 
 def between(points: np.ndarray) -> np.ndarray:
     return np.linalg.norm(points[:, None] - points[None], axis=-1)
+
+
+def test_it_looks_as_it_did(opened: Any, pictures: Pictures):
+    drawn_at(opened.page, 1.5)
+    pictures.look(opened.page, "judge", (1000, 640))
 
 
 def test_three_dancers_move_as_the_motions_do(opened: Any):
@@ -89,15 +104,6 @@ def test_what_is_kept_and_is_no_answers_is_left_alone(opened: Any, kept: str):
     assert opened.complaints == []
 
 
-def test_a_browser_that_keeps_nothing_asks_all_the_same(opened: Any):
-    page = opened.page
-    page.add_init_script("Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } })")
-    page.reload()
-    page.keyboard.press("b")
-    assert page.inner_text("#place") == "2 of 3"
-    assert opened.complaints == []
-
-
 def test_keys_and_buttons_choose_and_answers_are_saved(opened: Any, tmp_path: Path):
     page = opened.page
     page.keyboard.press("a")
@@ -118,3 +124,13 @@ def test_keys_and_buttons_choose_and_answers_are_saved(opened: Any, tmp_path: Pa
     assert verdict_of([saved]).trials == 3
     assert opened.complaints == []
     assert all(url.startswith(("file:", "blob:")) for url in opened.requests)
+
+
+def test_a_browser_that_keeps_nothing_asks_all_the_same(opened: Any):
+    page = opened.page
+    # From here on, for all tests that would come after this one.
+    page.add_init_script("Object.defineProperty(window, 'localStorage', { get() { throw new Error('no'); } })")
+    page.reload()
+    page.keyboard.press("b")
+    assert page.inner_text("#place") == "2 of 3"
+    assert opened.complaints == []

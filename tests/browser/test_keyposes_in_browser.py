@@ -6,11 +6,10 @@ from typing import Any
 
 import pytest
 
+from browser.pictures import Pictures
 from folk_dancers import dancers
 from onbeat.keyposes.extract import Keyposes, find_keyposes
-from onbeat.motion import Motion
 from onbeat.viewer.keypose_page import write_keypose_page
-from onbeat.viewer.page import write_page
 
 pytestmark = pytest.mark.browser
 
@@ -39,6 +38,11 @@ def opened(opened_page: Any) -> Any:
 
 def time_of(opened: Any) -> float:
     return opened.state()["time"]
+
+
+def test_it_looks_as_it_did(opened: Any, pictures: Pictures, found: Keyposes):
+    opened.posed(float(found.times[4]) + 0.01)
+    pictures.look(opened.page, "keyposes", (1000, 720))
 
 
 def test_it_opens_without_a_word(opened: Any):
@@ -101,15 +105,3 @@ def test_there_is_a_picture_of_every_keypose_and_they_differ(opened: Any, found:
     assert len(pictures) == len(found)
     assert all(len(picture) > 1000 for picture in pictures)  # something is drawn
     assert len(set(pictures)) == len(found)
-
-
-def test_a_page_without_keyposes_shows_nothing_of_them(swinger: Motion, tmp_path: Any, open_page: Any):
-    write_page(tmp_path / "plain.html", swinger)
-    opened = open_page(tmp_path / "plain.html")
-    opened.page.set_viewport_size({"width": 1000, "height": 720})
-    opened.posed(1.0)
-    for part in ("#poses", "#stepper", "#previous"):
-        assert not opened.page.is_visible(part)
-    opened.page.keyboard.press("]")
-    assert time_of(opened) == pytest.approx(1.0)
-    assert opened.complaints == []

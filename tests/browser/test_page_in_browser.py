@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
+from browser.pictures import Pictures
 from onbeat.motion import Motion
 from onbeat.music.song import Song
 from onbeat.viewer.content import page_data
@@ -68,6 +69,23 @@ def pixels(page: Any) -> np.ndarray:
     return image.imread(io.BytesIO(page.screenshot()), format="png")[..., :3]
 
 
+def test_it_looks_as_it_did(with_song: Any, pictures: Pictures) -> None:
+    with_song.posed(1.5)
+    pictures.look(with_song.page, "dance")
+    pictures.look(with_song.page, "dance_dark", dark=True)
+    pictures.look(with_song.page, "dance_phone", (390, 844))
+
+
+def test_the_motion_graph_looks_as_it_did(with_song: Any, pictures: Pictures) -> None:
+    page = with_song.page
+    page.click("#roads")
+    with_song.posed(2.5)
+    try:
+        pictures.look(page, "dance_graph", (900, 560))
+    finally:  # the other tests have the dancer to themselves
+        page.click("#roads")
+
+
 def test_it_opens_without_a_word_and_asks_nobody(with_song: Any, silent: Any) -> None:
     for opened in (with_song, silent):
         opened.posed(1.0)
@@ -103,7 +121,7 @@ def test_playing_keeps_the_time_of_the_clock(with_song: Any) -> None:
         """async () => {
             window.onbeat.play();
             const seen = [];
-            while (seen.length < 40 && window.onbeat.state().time < 3) {
+            while (seen.length < 18 && window.onbeat.state().time < 3) {
                 await new Promise(requestAnimationFrame);
                 seen.push([performance.now() / 1000, window.onbeat.state().time]);
             }
@@ -143,15 +161,13 @@ def test_names_stay_text(with_song: Any) -> None:
     assert with_song.page.locator("img").count() == 0
 
 
-@pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
-def test_there_is_something_to_see(with_song: Any, width: int, height: int) -> None:
+def test_there_is_something_to_see(with_song: Any) -> None:
     page = with_song.page
-    page.set_viewport_size({"width": width, "height": height})
     with_song.posed(1.0)
     first = pixels(page)
     red = (first[..., 0] > 0.55) & (first[..., 1] < 0.45) & (first[..., 2] < 0.4)
     stage = page.locator("#stage").bounding_box()
-    assert red[: int(stage["height"])].sum() > 1500, "the dancer's shirt"
+    assert red[: int(stage["height"])].sum() > 900, "the dancer's shirt"
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     with_song.posed(3.0)
     assert np.abs(pixels(page) - first).max() > 0.2
@@ -165,16 +181,24 @@ def test_clicks_sound_on_the_beats_when_asked_for(with_song: Any) -> None:
     assert page.evaluate("window.onbeat.state().clicks") == 0  # nobody has asked yet
     page.keyboard.press("c")
     assert page.get_attribute("#clicks", "aria-pressed") == "true"
-    page.evaluate("window.onbeat.seek(0); window.onbeat.play()")
-    with_song.until("window.onbeat.state().clicks >= 2")  # a busy machine leaves out what it would sound late
+    # A busy machine leaves out what it would sound late, and the song may be over before two have sounded.
+    again = "window.onbeat.state().playing || (window.onbeat.seek(0), window.onbeat.play())"
+    with_song.until(f"{again}, window.onbeat.state().clicks >= 2")
     page.click("#clicks")
-    sounded, time = page.evaluate("[window.onbeat.state().clicks, window.onbeat.state().time]")
-    with_song.until(f"window.onbeat.state().time > {time + 1.2}")
+    sounded = page.evaluate("window.onbeat.state().clicks")
+    page.evaluate("window.onbeat.seek(0.3); window.onbeat.play()")
+    with_song.until("window.onbeat.state().time > 1.2")
     assert page.evaluate("window.onbeat.state().clicks") == sounded
 
 
-def test_without_sound_there_is_nothing_to_click_to(silent: Any) -> None:
-    assert not silent.page.is_visible("#clicks")
+def test_what_a_page_has_nothing_of_it_does_not_show(silent: Any) -> None:
+    state = silent.posed(1.0)
+    assert (state["heat"], state["master"], state["other"]) == ([], None, [])
+    for part in ("#clicks", "#poses", "#stepper", "#previous", "#heat", "#master"):
+        assert not silent.page.is_visible(part), part
+    silent.page.keyboard.press("]")  # to the next keypose
+    assert silent.state()["time"] == pytest.approx(1.0)
+    assert silent.complaints == []
 
 
 def test_clocks_of_sound_and_pose_agree_at_every_speed(with_song: Any) -> None:
@@ -188,7 +212,8 @@ def test_clocks_of_sound_and_pose_agree_at_every_speed(with_song: Any) -> None:
                     window.onbeat.seek(0.2);
                     window.onbeat.play();
                     const [seen, late] = [[], performance.now() + 20000];
-                    while (seen.length < 30 && window.onbeat.state().time < 3.5 && performance.now() < late) {
+                    const enough = () => seen.length > 5 && seen.at(-1)[0] - seen[0][0] > 0.3;
+                    while (!enough() && window.onbeat.state().time < 3.5 && performance.now() < late) {
                         await new Promise(requestAnimationFrame);
                         const { heard, posed, rate } = window.onbeat.state();
                         if (heard !== null && heard > 0.3) seen.push([heard, posed, rate]);
@@ -233,6 +258,7 @@ def test_lanes_are_zoomed_scrolled_hidden_and_told(with_song: Any) -> None:
     page = with_song.page
     with_song.posed(2.0)
     box = page.locator("#detail").bounding_box()
+    assert {"Stops", "Waveform", "Clips"} <= set(page.locator("#names span").all_text_contents())
     before = with_song.state()["lanes"]
     page.mouse.move(box["x"] + 100, box["y"] + 40)
     page.mouse.wheel(0, -300)
@@ -357,12 +383,16 @@ def test_words_stand_out_in_a_light_and_in_a_dark_room(with_song: Any) -> None:
         assert page.evaluate(CONTRAST) == []
         page.keyboard.press("d")
     page.keyboard.press("g")
-    page.click("#figures summary")
+    page.keyboard.press("Escape")
+    assert page.get_attribute("#figures", "open") is None
 
 
 def test_all_is_in_the_window_of_a_phone(with_song: Any) -> None:
     page = with_song.page
     page.set_viewport_size({"width": 390, "height": 844})
+    with_song.posed(0.0)
+    begin = page.locator("#start").bounding_box()
+    assert begin["x"] > 390 / 2 + 60  # beside the dancer's feet, not on them
     with_song.posed(1.0)
     outside = page.evaluate(
         """() => [...document.querySelectorAll("button, summary, input, select, canvas, h1")].filter(each => {

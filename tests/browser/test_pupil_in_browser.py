@@ -10,7 +10,6 @@ import pytest
 from folk_dancers import dancers
 from onbeat.recognition.ghost import Beside, beside
 from onbeat.viewer.heat import scale_end
-from onbeat.viewer.page import write_page
 from onbeat.viewer.pupil_page import write_pupil_page
 
 pytestmark = pytest.mark.browser
@@ -67,13 +66,3 @@ def test_the_legend_tells_centimetres(opened_page: Any, found: Beside):
         "getComputedStyle(document.querySelector('#heat i')).backgroundImage"
     )
     assert opened_page.page.text_content("#metrics dd") == "12 cm, +0.10 s"
-
-
-def test_a_page_without_a_master_shows_nothing_of_one(tmp_path: Any, open_page: Any):
-    write_page(tmp_path / "plain.html", dancers(1)[0].motion)
-    opened = open_page(tmp_path / "plain.html")
-    state = opened.posed(1.0)
-    assert (state["heat"], state["master"], state["other"]) == ([], None, [])
-    assert not opened.page.is_visible("#heat")
-    assert not opened.page.is_visible("#master")
-    assert opened.complaints == []

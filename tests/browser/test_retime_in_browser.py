@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from browser.pictures import Pictures
 from onbeat.examples import embedded_song
 from onbeat.limits.learned import learned_limits
 from onbeat.motion import Motion
@@ -28,6 +29,11 @@ def made(swinger: Motion, tmp_path_factory: pytest.TempPathFactory, open_page: A
     path = tmp_path_factory.mktemp("retimed") / "retimed.html"
     write_retime_page(path, result, swinger, song, (samples, rate), "Faster")
     return result, open_page(path)
+
+
+def test_it_looks_as_it_did(made: tuple[Retimed, Any], pictures: Pictures):
+    made[1].posed(1.5)
+    pictures.look(made[1].page, "retimed", (900, 640))
 
 
 def test_it_opens_without_a_word(made: tuple[Retimed, Any]):

@@ -7,12 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from browser.pictures import Pictures
 from onbeat.examples import embedded_song
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
 from onbeat.robots.model import robot_named
-from onbeat.viewer.robot_page import write_robot_page
+from onbeat.viewer.page import write_filled
+from onbeat.viewer.robot_page import robot_page_data
 from onbeat.viewer.robot_shape import robot_shape
 
 pytestmark = pytest.mark.browser
@@ -29,11 +31,17 @@ def made(swinger: Motion, tmp_path_factory: pytest.TempPathFactory, open_page: A
     song, samples, rate = embedded_song(seconds=5.0)
     path = tmp_path_factory.mktemp("robot") / "robot.html"
     keyposes = song.beats[1:8:2]
-    write_robot_page(
-        path, swinger, robot, song, (samples, rate), song.beats, keyposes, "Lifts", {"limits": "kept"},
+    told = robot_page_data(
+        swinger, robot, song, (samples, rate), song.beats, keyposes, "Lifts", {"limits": "kept"},
         model=g1, fell_at=2.48,
     )  # fmt: skip
+    write_filled(path, told)
     return robot_shape(robot, g1)[0], open_page(path)
+
+
+def test_it_looks_as_it_did(made: tuple[Motion, Any], pictures: Pictures):
+    made[1].posed(1.5)
+    pictures.look(made[1].page, "robot", (900, 640), dark=True)
 
 
 def test_it_opens_without_a_word(made: tuple[Motion, Any]):

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 import uvicorn
 
+from browser.pictures import Pictures
 from folk_dancers import spaces_of
 from onbeat.reproduce.study import PAGE, study_page
 from onbeat.reproduce.study_answers import read_answers
@@ -49,6 +50,10 @@ def answer(page: Any) -> list[dict[str, Any]]:
         page.keyboard.press(right if number < len(asked) - 1 else {"a": "b", "b": "a"}[right])
     page.wait_for_selector("#next:not([disabled])", timeout=20_000)
     return asked
+
+
+def test_it_looks_as_it_did(folder: Path, open_page: Any, pictures: Pictures):
+    pictures.look(open_page(folder / PAGE).page, "study", (1000, 640))
 
 
 def test_answers_of_several_people_are_kept_in_the_browser_and_saved_as_one_file(folder: Path, open_page: Any):

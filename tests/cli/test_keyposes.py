@@ -8,7 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import soundfile
 
+from onbeat.cli.keypose_input import BeatFlags
+from onbeat.cli.keypose_sound import RATE, sound_of, titled
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
@@ -43,6 +46,21 @@ def test_a_motion_with_beats_gives_the_documents_a_sheet_and_a_page(onbeat: Run,
     assert (tmp_path / "found" / "keyposes.png").read_bytes()[:4] == b"\x89PNG"
     assert b"<svg" in (tmp_path / "found" / "keyposes.svg").read_bytes()[:2000]
     assert b"<html" in (tmp_path / "found" / "keyposes.html").read_bytes()[:200]
+
+
+def test_the_page_holds_the_song_from_where_the_motion_begins(tmp_path: Path) -> None:
+    place = tmp_path / "waltz.wav"
+    soundfile.write(place, np.full((4 * RATE, 2), 0.5, np.float32), RATE)
+    assert sound_of(BeatFlags(), 9.0) is None
+    samples, rate = sound_of(BeatFlags(music=place, song_at=1.0), 3.0) or pytest.fail("no sound")
+    assert (len(samples), rate) == (3 * RATE, RATE)
+    assert not samples[:RATE].any()
+    assert samples[RATE + 9 :].min() > 0.4
+    cut = sound_of(BeatFlags(music=place, song_at=-3.0), 9.0)
+    assert cut is not None
+    assert len(cut[0]) == RATE
+    assert sound_of(BeatFlags(music=place, song_at=-5.0), 9.0) is None
+    assert titled("folk", BeatFlags(music=place)) == "folk · waltz"
 
 
 def test_without_music_the_motion_keeps_its_own_beats(onbeat: Run, folder: Path) -> None:

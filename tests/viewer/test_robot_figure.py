@@ -59,6 +59,9 @@ def test_hardly_ever_outside_is_not_never_outside():
     assert "planned 99.9 % inside" in titles(robot_figure(long, margin, *many))[0]
     sure = robot_figure(times, np.full(FRAMES, 0.02), zmp, corners, standing)
     assert "planned 100 % inside, least 20 mm" in titles(sure)[0]
+    for least, words in ((-3e-8, "100 % inside, least 0 mm"), (-3e-4, "% inside, least −0.3 mm")):
+        margin = np.where(np.arange(FRAMES) == 5, least, 0.02)
+        assert words in titles(robot_figure(times, margin, zmp, corners, standing))[0]
 
 
 def test_a_margin_far_outside_does_not_hide_the_rest():

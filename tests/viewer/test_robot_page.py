@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -17,8 +17,9 @@ from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
 from onbeat.robots.collision import capsules_of
 from onbeat.robots.model import Robot, robot_named
-from onbeat.viewer.contract import PathData, unpack_path
-from onbeat.viewer.robot_page import apart, robot_page, together, write_robot_page
+from onbeat.viewer.contract import PageData, PathData, unpack_path
+from onbeat.viewer.page import write_filled
+from onbeat.viewer.robot_page import apart, kept_beside, robot_page_data, together
 from onbeat.viewer.robot_shape import ROBOT
 
 BEATS = np.arange(0.25, 4.0, 0.5)
@@ -43,12 +44,11 @@ def moving(robot: Robot, seconds: float = 4.0, fps: float = 30.0) -> Motion:
 @pytest.fixture(scope="module")
 def page(g1: Robot, swinger: Motion) -> dict[str, Any]:
     notes = {"ZMP inside": "100 %", "margin": {"least": 0.0213}}
-    return data_in(robot_page(swinger, moving(g1), None, None, BEATS, KEYPOSES, "Both", notes, model=g1))
+    return data_in(robot_page_data(swinger, moving(g1), None, None, BEATS, KEYPOSES, "Both", notes, model=g1))
 
 
-def data_in(page: bytes) -> dict[str, Any]:
-    (found,) = re.findall(rb'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)
-    return json.loads(found)
+def data_in(page: PageData) -> dict[str, Any]:
+    return json.loads(msgspec.json.encode(page))
 
 
 def paths(body: dict[str, Any]) -> np.ndarray:
@@ -77,12 +77,22 @@ def test_the_dancer_stands_beside_on_the_same_floor_from_the_robots_place(page: 
     body = page["compared"]["body"]
     wrist = paths(body)[:, body["joints"].index("LeftHand")]
     wanted = swinger.positions[:, swinger.skeleton.index("LeftHand")]
-    step = wrist - wanted
-    assert step == pytest.approx(np.tile(step[0], (len(step), 1)), abs=1e-3)
-    assert step[0, :2] == pytest.approx([2.0 - 1.0, -1.0 - 0.0], abs=1e-3)
+    height = (wrist - wanted)[:, 2]
+    assert height == pytest.approx(np.full(len(height), height[0]), abs=1e-3)
     assert page["compared"]["heat"] is None
     assert page["compared"]["captions"] == ["g1", "dancer"]
     assert page["compared"]["who"] == "dancer"
+
+
+def test_a_dancer_who_walks_away_stays_beside_and_still_sways(swinger: Motion):
+    times = swinger.times
+    way = np.column_stack((1.5 * times, 0.05 * np.sin(2 * np.pi * 2.0 * times), 0 * times))
+    walker = swinger.replace(root_positions=swinger.root_positions[:1] + way)
+    still = swinger.replace(root_positions=np.tile(swinger.root_positions[:1], (len(times), 1)))
+    kept = kept_beside(walker, still, 0.0) - kept_beside(still, still, 0.0)
+    middle = slice(len(times) // 3, -len(times) // 3)
+    assert np.abs(kept[middle, 0]).max() < 0.05
+    assert np.ptp(kept[middle, 1]) == pytest.approx(0.1, abs=0.01)
 
 
 def test_both_are_on_one_clock_at_the_finer_rate(page: dict[str, Any]):
@@ -98,7 +108,7 @@ def test_the_finer_rate_may_be_either_ones(g1: Robot, swinger: Motion):
 
 def test_soles_are_on_the_floor_of_the_page(g1: Robot, swinger: Motion):
     higher = swinger.replace(root_positions=swinger.root_positions + np.array([0, 0, 0.4]))
-    page = data_in(robot_page(higher, moving(g1), model=g1))
+    page = data_in(robot_page_data(higher, moving(g1), model=g1))
     assert page["floor"] == pytest.approx(lowest(page), abs=0.005)
     assert lowest(page["compared"]["body"]) == pytest.approx(page["floor"], abs=0.005)
 
@@ -138,7 +148,7 @@ def test_beats_keyposes_and_notes_are_those_given(page: dict[str, Any]):
 
 
 def test_a_fall_is_told_everywhere(g1: Robot, swinger: Motion):
-    page = data_in(robot_page(swinger, moving(g1, 2.0), None, None, BEATS, KEYPOSES, model=g1, fell_at=1.96))
+    page = data_in(robot_page_data(swinger, moving(g1, 2.0), None, None, BEATS, KEYPOSES, model=g1, fell_at=1.96))
     assert page["compared"]["captions"] == ["g1, falls at 2.0 s", "dancer"]
     assert told(page)["the robot"] == "falls at 2.0 s"
     assert [(one["clip"], one["at_s"]) for one in page["moves"]] == [("dances", 0.0), ("fell at 2.0 s", 1.96)]
@@ -147,10 +157,10 @@ def test_a_fall_is_told_everywhere(g1: Robot, swinger: Motion):
 
 
 def test_a_robot_that_only_ends_did_not_fall(g1: Robot, swinger: Motion):
-    page = data_in(robot_page(swinger, moving(g1, 2.0), model=g1))
+    page = data_in(robot_page_data(swinger, moving(g1, 2.0), model=g1))
     assert told(page) == {"the robot": "ends at 2.0 s"}
     assert [one["clip"] for one in page["moves"]] == ["dances", "ended at 2.0 s"]
-    assert told(data_in(robot_page(swinger, moving(g1, 3.95), model=g1))) == {}
+    assert told(data_in(robot_page_data(swinger, moving(g1, 3.95), model=g1))) == {}
 
 
 def test_a_dancer_who_comes_near_begins_further_off():
@@ -163,7 +173,7 @@ def test_a_dancer_who_comes_near_begins_further_off():
 
 def test_a_song_brings_its_downbeats_and_its_sound(g1: Robot, swinger: Motion):
     song, samples, rate = embedded_song(seconds=5.0)
-    page = data_in(robot_page(swinger, moving(g1), song, (samples, rate), song.beats, model=g1))
+    page = data_in(robot_page_data(swinger, moving(g1), song, (samples, rate), song.beats, model=g1))
     assert page["tempo"] == song.tempo
     assert page["downbeats"]
     assert set(page["downbeats"]) <= set(page["beats"])
@@ -171,7 +181,7 @@ def test_a_song_brings_its_downbeats_and_its_sound(g1: Robot, swinger: Motion):
 
 
 def test_without_a_model_the_robot_is_drawn_by_its_roles(g1: Robot, swinger: Motion):
-    page = data_in(robot_page(swinger, moving(g1)))
+    page = data_in(robot_page_data(swinger, moving(g1)))
     assert "left_elbow_joint" in page["joints"]
     assert {one["colour"] for one in page["capsules"]} == {"#" + bytes(colour).hex() for colour in ROBOT.values()}
     assert page["compared"]["captions"] == ["robot", "dancer"]
@@ -179,24 +189,25 @@ def test_without_a_model_the_robot_is_drawn_by_its_roles(g1: Robot, swinger: Mot
 
 
 def test_one_frame_of_each_makes_a_page(g1: Robot, swinger: Motion):
-    page = data_in(robot_page(swinger[:1], moving(g1)[:1], model=g1))
+    page = data_in(robot_page_data(swinger[:1], moving(g1)[:1], model=g1))
     assert page["frames"] >= 1
 
 
 def test_the_same_dances_give_the_same_bytes(g1: Robot, swinger: Motion, tmp_path: Path):
-    write_robot_page(tmp_path / "a.html", swinger, moving(g1), beats=BEATS, model=g1)
-    assert (tmp_path / "a.html").read_bytes() == robot_page(swinger, moving(g1), beats=BEATS, model=g1)
+    for name in "ab":
+        write_filled(tmp_path / f"{name}.html", robot_page_data(swinger, moving(g1), beats=BEATS, model=g1))
+    assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
 
 
 def test_what_cannot_be_shown_is_said(g1: Robot, swinger: Motion):
     with pytest.raises(OnbeatError, match="beat 2 of 2 is at nan s"):
-        robot_page(swinger, moving(g1), beats=np.array([0.5, np.nan]))
+        robot_page_data(swinger, moving(g1), beats=np.array([0.5, np.nan]))
     with pytest.raises(OnbeatError, match="keypose 1 of 1 is at inf s"):
-        robot_page(swinger, moving(g1), keyposes=np.array([np.inf]))
+        robot_page_data(swinger, moving(g1), keyposes=np.array([np.inf]))
     with pytest.raises(OnbeatError, match="fall 1 of 1 is at nan s"):
-        robot_page(swinger, moving(g1), fell_at=float("nan"))
+        robot_page_data(swinger, moving(g1), fell_at=float("nan"))
     with pytest.raises(OnbeatError, match=r"swinger is not of the robot g1, which has 37 joints and not Hips; give"):
-        robot_page(swinger, swinger, model=g1)
+        robot_page_data(swinger, swinger, model=g1)
     other = Motion(Skeleton(("pelvis",), [-1], [[0, 0, 0]]), np.tile(rot.IDENTITY, (2, 1, 1)), np.zeros((2, 3)), 30)
     with pytest.raises(OnbeatError, match="has 37 joints and not 1 joints"):
-        robot_page(swinger, other, model=g1)
+        robot_page_data(swinger, other, model=g1)

@@ -69,6 +69,32 @@ def test_there_is_a_skull_above_the_shoulders(without: tuple[str, ...]) -> None:
     assert 1.55 < top < 1.95
 
 
+@pytest.mark.parametrize(
+    "neck_head_end",
+    [
+        (1.48, 1.57, 1.76),  # the crown at the end of the head
+        (1.33, 1.51, 1.60),  # a neck from the chest up, and a head that ends in its middle
+        (1.40, 1.47, None),  # a head joint at the chin, and no end of it
+    ],
+)
+def test_the_head_sits_on_a_neck_wherever_files_have_its_joints(neck_head_end: tuple[float, float, float | None]):
+    neck, head, end = neck_head_end
+    whole = person()
+    heights = {"Neck": neck, "Head": head}
+    rest = whole.rest_positions + np.array([0, 0, SPINE["Hips"]])
+    for name, height in heights.items():
+        rest[whole.index(name), 2] = height
+    names, parents = list(whole.names), whole.parents.tolist()
+    if end is not None:
+        names, parents, rest = [*names, "HeadEnd"], [*parents, names.index("Head")], np.vstack((rest, [0, 0, end]))
+    skeleton = Skeleton(names, parents, np.vstack((np.zeros(3), rest[1:] - rest[parents[1:]])))
+    skull = max((c for c in capsules(skeleton, Body.of(skeleton)) if c.group == "head"), key=lambda one: one.radius_b)
+    heights_of = [rest[skull.joint_a, 2] + part * (rest[skull.joint_b] - rest[skull.joint_a])[2] for part in skull[5:]]
+    shoulders = LIMBS["Arm"][2]
+    assert 0.05 < heights_of[0] - skull.radius_a - shoulders < 0.15  # there is a neck to be seen
+    assert 0.28 < heights_of[1] + skull.radius_b - shoulders < 0.37
+
+
 def test_hands_reach_past_the_wrists_and_heels_below_the_ankles() -> None:
     skeleton = person()
     figure = Figure.of(skeleton)

@@ -8,7 +8,7 @@ import { at, on, press } from "./elements";
 import { Ghosts, type Haunting } from "./ghosts";
 import type { GraphPanel } from "./graph_panel";
 import { Help } from "./help";
-import { type Key, type KeyGroup, listen } from "./keys";
+import { type Key, type KeyGroup, listen, shutting } from "./keys";
 import type { Keyposes } from "./keyposes";
 import type { Loop } from "./loop";
 import type { Marks } from "./marks";
@@ -47,6 +47,7 @@ export class Controls {
     this.wire();
     this.wireStage();
     this.fillLanes();
+    for (const id of ["figures", "lanes"]) shutting(at<HTMLDetailsElement>(id));
     const groups = this.groups();
     this.help = new Help(at<HTMLDialogElement>("keyboard"), groups);
     listen(groups);
@@ -124,10 +125,6 @@ export class Controls {
       list.append(label);
     }
     at("lanes").hidden = !list.children.length;
-    addEventListener("click", (event) => {
-      if (!at("lanes").contains(event.target as Node)) at("lanes").removeAttribute("open");
-    });
-    at("lanes").addEventListener("keydown", (event) => event.key === "Escape" && at("lanes").removeAttribute("open"));
     this.sizeLanes();
   }
 

@@ -9,6 +9,7 @@ import { Trunk, type Tube } from "./trunk";
 const UP = new THREE.Vector3(0, 1, 0);
 const TINT = new THREE.Color();
 const AROUND = 28; // faces around a capsule
+const [LOOKS, MOSTLY] = [60, 0.75]; // how often a dance is looked at for its dancer's height, and the part that is lower
 
 /** What a body is made of. */
 export type Body = Pick<PageData, "joints" | "capsules" | "spine" | "floor">;
@@ -71,6 +72,31 @@ export class Dancer {
   /** Metres from the floor to the highest point of the body at the time last posed. */
   get height(): number {
     return Math.max(...this.ends.map((end) => end.z + end.w)) - this.page.floor;
+  }
+
+  /** Metres from the floor to the lowest point of the body at the time last posed. */
+  get clearance(): number {
+    return Math.min(...this.ends.map((end) => end.z - end.w)) - this.page.floor;
+  }
+
+  /** Metres from the body's lowest point to the top of its head, as it mostly is or less, over so many seconds. */
+  standing(duration: number): number {
+    const tall = Array.from({ length: LOOKS }, (_, look) => this.stature((duration * look) / LOOKS)).sort((p, q) => p - q);
+    this.places.read(0, this.joints);
+    return tall[Math.floor(MOSTLY * LOOKS)];
+  }
+
+  private stature(time: number): number {
+    this.places.read(time, this.joints);
+    const [a, b] = [new THREE.Vector3(), new THREE.Vector3()];
+    let [low, high, head] = [Infinity, -Infinity, -Infinity];
+    for (const { data } of this.limbs) {
+      this.span(data, a, b);
+      low = Math.min(low, a.z - data.radius_a, b.z - data.radius_b);
+      high = Math.max(high, a.z + data.radius_a, b.z + data.radius_b);
+      if (data.group === "head") head = Math.max(head, a.z + data.radius_a, b.z + data.radius_b);
+    }
+    return (head > -Infinity ? head : high) - low;
   }
 
   /** Gives back what the graphics card holds of it. */

@@ -30,6 +30,18 @@ export function listen(groups: readonly KeyGroup[]): void {
   });
 }
 
+/** What opens over the page goes away again by Escape, wherever the focus is, and mostly by a press beside it. */
+export function shutting(over: HTMLDetailsElement, beside = true): void {
+  addEventListener("click", (event) => {
+    if (beside && !over.contains(event.target as Node)) over.open = false;
+  });
+  addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || !over.open || document.querySelector("dialog[open]")) return;
+    if (over.contains(document.activeElement)) over.querySelector("summary")?.focus();
+    over.open = false;
+  });
+}
+
 function taken(event: KeyboardEvent): boolean {
   const focused = event.target instanceof Element ? event.target : undefined;
   if (focused?.matches("button, summary, a")) return event.key === " " || event.key === "Enter";

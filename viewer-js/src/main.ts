@@ -20,9 +20,11 @@ import { Panel } from "./panel";
 import { StoredPath } from "./path";
 import { reachOf } from "./presets";
 import { Room } from "./room";
-import { Stage } from "./stage";
+import { type Covered, Stage } from "./stage";
 import { Timeline } from "./timeline";
 import { Tip } from "./tip";
+
+const NARROW = 760; // [px]
 
 function start(): void {
   const page = readPage();
@@ -35,7 +37,7 @@ function start(): void {
   const frame = (at: number): void => {
     const time = clock.now(at);
     const beat = lastBeat(page, time);
-    stage.draw(time, Math.min((at - before) / 1000, 0.1), beat.since, clock.playing ? beat.strength : 0);
+    stage.draw(time, Math.min((at - before) / 1000, 1), beat.since, clock.playing ? beat.strength : 0);
     timeline.draw(time);
     graph.draw(time);
     clicks.update(time);
@@ -69,9 +71,10 @@ function partsOf(page: PageData): Parts & { theme: Room } {
   const clicks = new Clicks(clock, page);
   const keyposes = new Keyposes(page, clock, at("poses"), at("keypose"), seek);
   const panel = new Panel(page, clock, stage, colours);
+  stage.keepClear(wordsAndButtons);
   const tip = new Tip(at("tip"));
   const [detail, overview] = [at<HTMLCanvasElement>("detail"), at<HTMLCanvasElement>("overview")];
-  const timeline = new Timeline(detail, overview, page, colours, seek, now, loop, () => clock.playing);
+  const timeline = new Timeline(detail, overview, at("names"), page, colours, seek, now, loop, () => clock.playing);
   tip.watch(detail, (x, y) => timeline.sayDetail(x, y));
   tip.watch(overview, (x) => timeline.sayOverview(x));
   const [marks, ghosts] = [new Marks(page.steps, page.floor), new Ghosts(page, path)];
@@ -87,13 +90,23 @@ function stageOf(page: PageData, path: StoredPath): Stage {
   const compared = page.compared;
   const heat = compared?.heat ? new Heat(compared.heat, page.joints.length, page.fps) : undefined;
   const dancer = new Dancer(page, path, heat);
+  const tall = dancer.standing(page.duration);
   const company = compared && {
-    master: new Master(compared, page, dancer.height),
-    captions: compared.captions.map((words) => new Caption(words, page.floor, dancer.height)),
+    master: new Master(compared, page, tall),
+    captions: compared.captions.map((words) => new Caption(words, page.floor, tall)),
   };
   const stage = new Stage(at<HTMLCanvasElement>("scene"), page, dancer, company ?? undefined);
-  stage.survey(reachOf(path, page.joints.length, page.spine[0], page.duration, page.floor + 0.5 * dancer.height));
+  const reach = reachOf(path, page.joints.length, page.spine[0], page.duration, page.floor + 0.5 * tall);
+  stage.survey(reach, Math.max(tall, company?.master.tall ?? 0));
   return stage;
+}
+
+/** What lies over the dancer on a narrow screen: on a wide one words and buttons are beside it. */
+function wordsAndButtons(): Covered {
+  const [floor, words, buttons] = ["floor", "subtitle", "shown"].map((id) => at(id).getBoundingClientRect());
+  if (floor.width > NARROW) return { top: 0, bottom: 0 };
+  const [top, bottom] = [words.bottom - floor.top, buttons.height && floor.bottom - buttons.top];
+  return { top: Math.max(top, 0), bottom: Math.max(bottom, 0) };
 }
 
 function lastBeat(page: PageData, time: number): { since: number; strength: number } {

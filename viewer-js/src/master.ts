@@ -16,6 +16,7 @@ export class Master {
   place: Place = "beside";
   readonly dancer: Dancer;
   readonly shift = new THREE.Vector3(); // [m] from the dancer
+  readonly tall: number; // [m]
   private readonly aside: THREE.Vector3;
   private readonly veil: Veil;
   private readonly size: number; // of a ghost
@@ -28,7 +29,8 @@ export class Master {
     this.aside = new THREE.Vector3(Math.cos(page.facing), Math.sin(page.facing), 0).multiplyScalar(apart);
     this.veil = new Veil(this.dancer);
     // What is compared joint by joint has its own size; another body shows its pose best as large as the dancer.
-    this.size = compared.heat ? 1 : height / this.dancer.height;
+    this.tall = this.dancer.standing(page.duration);
+    this.size = compared.heat ? 1 : height / this.tall;
     this.began = this.dancer.centre.clone().setZ(page.floor);
     this.put("beside");
   }

@@ -9,7 +9,10 @@ import { Ground } from "./ground";
 import type { Master } from "./master";
 import { Presets, type Reach, type ViewName } from "./presets";
 
-const FOLLOW = 1.6; // [1/s] how fast the camera goes after the dancer
+const FOLLOW = 1.6; // [1/s] how fast the camera goes after a dancer that it looks at
+const OFF = 0.25; // of the height: twice as fast after one that is so far aside
+const LEAP = 0.05; // of the height: the camera rises with feet that are farther off the floor
+const FULL = 0.88; // of what is free, that the dancer takes at most
 const FIELD_OF_VIEW = 30; // [degrees]
 
 /** Where the ground is, whither the dancer faces at first, and how much more room than it stands in it gets. */
@@ -21,6 +24,12 @@ export interface Place extends Pick<PageData, "floor" | "facing"> {
 export interface Company {
   master: Master;
   captions: Caption[];
+}
+
+/** Pixels at the edges of the picture that words and buttons lie on. */
+export interface Covered {
+  top: number;
+  bottom: number;
 }
 
 /** What else is drawn, and has to know the time. */
@@ -43,8 +52,10 @@ export class Stage {
   private readonly extras: Extra[] = [];
   private readonly views: Presets;
   private drawn = -1; // [s] the time last drawn
-  private tall = 1; // [m]
+  private tall: number; // [m]
   private jumped = false;
+  private filled = 1; // [m] from which the dancer filled the picture when last looked at
+  private covered = (): Covered => ({ top: 0, bottom: 0 });
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -68,10 +79,12 @@ export class Stage {
     this.controls.enablePan = false;
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.views = new Presets(this.camera, this.controls, page.facing);
+    this.tall = this.tallest();
     this.fit();
     this.placeCamera();
     new ResizeObserver(() => {
       this.fit();
+      this.comeAsNear();
       this.renderer.render(this.scene, this.camera); // at once, else there is nothing to see until the next frame
     }).observe(canvas);
   }
@@ -84,7 +97,8 @@ export class Stage {
     for (const extra of this.extras) extra.pose(time);
     this.caption();
     const centre = this.middle();
-    if (this.follow || this.views.fixed) this.goAfter(this.views.fixed ?? centre, 1 - Math.exp(-this.pace() * seconds));
+    const to = this.views.fixed ?? centre;
+    if (this.follow || this.views.fixed) this.goAfter(to, 1 - Math.exp(-this.pace(to) * seconds));
     this.sun.target.position.set(centre.x, centre.y, this.page.floor + 0.8);
     this.sun.position.copy(this.sun.target.position).add(new THREE.Vector3(...this.lightFrom()));
     const ends = [...this.dancer.ends, ...(this.master?.ends() ?? [])];
@@ -144,9 +158,12 @@ export class Stage {
     this.extras.length = 0;
   }
 
-  /** Where the dancer is over the whole dance: what is seen from the front, the side and above. */
-  survey(reach: Reach): void {
+  /** Where the dancer is over the whole dance, which is seen from the front, the side and above; how tall who is there stands. */
+  survey(reach: Reach, tall?: number): void {
     this.views.reach = reach;
+    if (tall === undefined) return;
+    this.tall = tall;
+    this.placeCamera();
   }
 
   /** Where the camera looks from; undefined where somebody moved it. */
@@ -174,8 +191,18 @@ export class Stage {
     this.drawn = -1;
   }
 
-  private pace(): number {
-    return this.views.fixed ? 3 * FOLLOW : FOLLOW;
+  /** Keeps the dancer clear of what lies on the picture's edges; they are looked at again when the picture has another size. */
+  keepClear(covered: () => Covered): void {
+    this.covered = covered;
+    this.fit();
+    this.placeCamera();
+  }
+
+  /** Calmly after small steps, but nobody walks out of the picture. */
+  private pace(to: THREE.Vector3): number {
+    if (this.views.fixed) return 3 * FOLLOW;
+    const off = Math.hypot(to.x - this.target.x, to.y - this.target.y) / (OFF * this.tall);
+    return FOLLOW * (1 + off * off);
   }
 
   /** Another dancer comes in place of the one that was there. */
@@ -184,6 +211,7 @@ export class Stage {
     this.dancer.dispose();
     this.dancer = dancer;
     this.scene.add(dancer.group);
+    this.tall = this.tallest();
     this.placeCamera();
     this.drawn = -1;
   }
@@ -210,10 +238,16 @@ export class Stage {
   }
 
   private goAfter(centre: THREE.Vector3, part: number): void {
-    const move = new THREE.Vector3(centre.x - this.target.x, centre.y - this.target.y, 0).multiplyScalar(part);
+    const height = this.page.floor + 0.5 * this.tall + this.lift();
+    const move = new THREE.Vector3(centre.x, centre.y, height).sub(this.target).multiplyScalar(part);
     this.target.add(move);
     this.controls.target.copy(this.target);
     this.camera.position.add(move);
+  }
+
+  /** Metres by which the camera is higher, after who leaps or climbs. */
+  private lift(): number {
+    return this.views.fixed ? 0 : Math.max(this.dancer.clearance - LEAP * this.tall, 0);
   }
 
   private addLights(): void {
@@ -251,21 +285,35 @@ export class Stage {
   private away(height = this.tall): number {
     const wide = this.master ? 0.55 + this.master.shift.length() / height : 0.74; // of the height
     const narrow = Math.min(this.camera.aspect / wide, 1);
-    return (0.78 * (this.page.room ?? 1) * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+    const half = Math.max(0.78 * (this.page.room ?? 1), 0.5 / (FULL * this.free)); // of the height
+    return (half * height) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)) / narrow;
+  }
+
+  /** How much of the picture's height nothing lies on. */
+  private get free(): number {
+    const { top, bottom } = this.covered();
+    return Math.max(1 - (top + bottom) / Math.max(this.canvas.clientHeight, 1), 0.3);
   }
 
   private placeCamera(): void {
-    const height = (this.tall = this.tallest());
+    const height = this.tall;
     const yaw = this.page.facing + 0.42;
     const middle = this.middle();
     this.target.set(middle.x, middle.y, this.page.floor + 0.5 * height);
-    const away = this.away();
+    const away = (this.filled = this.away());
     const out = new THREE.Vector3(-Math.sin(yaw), Math.cos(yaw), 0.2).normalize();
     this.camera.position.copy(this.target).addScaledVector(out, away);
     this.controls.target.copy(this.target);
     this.controls.minDistance = 0.5 * height;
     this.controls.maxDistance = 12 * height;
     this.controls.update();
+  }
+
+  /** In a picture of another shape the dancer fills as much of it as before. */
+  private comeAsNear(): void {
+    const away = this.away();
+    this.camera.position.sub(this.target).multiplyScalar(away / this.filled).add(this.target);
+    this.filled = away;
   }
 
   private fit(): void {
@@ -275,7 +323,8 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.drawn = -1;
     this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    const { top, bottom } = this.covered();
+    this.camera.setViewOffset(width, height, 0, (bottom - top) / 2, width, height);
   }
 }
 

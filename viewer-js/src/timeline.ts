@@ -32,6 +32,7 @@ export class Timeline {
   private readonly overview: Strip;
   private readonly picture: Strip; // of the overview but for what moves
   private painted = ""; // how the picture was
+  private named = ""; // where the lanes' names are
   private readonly wave: Curve;
   private readonly music: Curve;
   private readonly motion: Curve;
@@ -40,6 +41,7 @@ export class Timeline {
   constructor(
     detail: HTMLCanvasElement,
     overview: HTMLCanvasElement,
+    private readonly names: HTMLElement, // beside the detail strip
     private readonly page: PageData,
     private readonly colours: ClipColours,
     private readonly seek: (time: number) => void,
@@ -132,16 +134,16 @@ export class Timeline {
     const strip = this.detail;
     strip.fit();
     const { pen, width, height } = strip;
+    const laid = height ? this.layout() : [];
+    this.nameLanes(laid);
     if (!height) return;
     const span = this.around(now);
-    const laid = this.layout();
     pen.fillStyle = paint.paper;
     pen.fillRect(0, 0, width, height);
     pen.font = lanes.FONT;
     this.drawGrounds(span, laid);
     for (const { track, top, bottom } of laid) track.draw(pen, span, top, bottom, now);
     this.drawThrough(span, laid, now);
-    if (width >= 560) this.drawLabels(laid);
     pen.fillStyle = paint.accent;
     pen.fillRect(lanes.xOf(span, now) - 1, 0, 2, height);
   }
@@ -193,22 +195,19 @@ export class Timeline {
     pen.globalAlpha = 1;
   }
 
-  private drawLabels(laid: Laid[]): void {
-    const { pen } = this.detail;
-    pen.font = "10px system-ui, sans-serif";
-    pen.textBaseline = "middle";
-    for (const { track, top, bottom } of laid) {
-      if (!track.labelled) continue;
-      const width = pen.measureText(track.title).width + 10;
-      const middle = Math.min((top + bottom) / 2, top + 8);
-      pen.fillStyle = paint.paper;
-      pen.globalAlpha = 0.88;
-      lanes.rounded(pen, 3, middle - 7, width, 14, 7);
-      pen.globalAlpha = 1;
-      pen.fillStyle = paint.words;
-      pen.fillText(track.title, 8, middle + 0.5);
-    }
-    pen.font = lanes.FONT;
+  /** The lanes' names beside them, where nothing is drawn over. */
+  private nameLanes(laid: Laid[]): void {
+    const like = laid.map(({ track, top, bottom }) => `${track.name} ${top} ${bottom}`).join();
+    if (like === this.named) return;
+    this.named = like;
+    this.names.replaceChildren(
+      ...laid.filter(({ track }) => track.name !== "ruler").map(({ track, top, bottom }) => {
+        const name = document.createElement("span");
+        name.textContent = track.title;
+        name.style.top = `${(top + bottom) / 2}px`;
+        return name;
+      }),
+    );
   }
 
   private drawOverview(now: number): void {

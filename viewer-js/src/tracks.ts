@@ -16,7 +16,6 @@ export interface Track {
   tall: number; // [px]
   there: boolean; // whether there is anything to show
   shown: boolean;
-  labelled: boolean;
   draw(pen: Pen, span: lanes.Span, top: number, bottom: number, now: number): void;
   /** What lies at a time, or within some seconds of it. */
   say(time: number, within: number): string;
@@ -32,7 +31,7 @@ export function evened(wave: Curve): Curve {
 /** All lanes from top to bottom, those without anything to show too. */
 export function tracksOf(page: PageData, colours: ClipColours): Track[] {
   const lane = (name: TrackName, title: string, tall: number, there: boolean, draw: Track["draw"], say: Track["say"]): Track =>
-    ({ name, title, tall, there, shown: true, labelled: tall > 10 && !["ruler", "clips", "keyposes"].includes(name), draw, say });
+    ({ name, title, tall, there, shown: true, draw, say });
   const ruler: Track["draw"] = (pen, span, top, bottom) => drawRuler(pen, span, page.duration, top, bottom);
   return [
     lane("keyposes", "Keyposes", 20, page.keyposes.length > 0,
@@ -48,7 +47,7 @@ export function tracksOf(page: PageData, colours: ClipColours): Track[] {
     soundTrack(page, lane),
     energyTrack(page, lane),
     intensityTrack(page, lane),
-    lane("clips", "Clips and joins", 20, page.moves.length > 0,
+    lane("clips", "Clips", 20, page.moves.length > 0,
       (pen, span, top, bottom) => lanes.drawClips(pen, span, page, colours, top + 1, bottom - top - 1),
       (time) => words.move(page, time)),
   ];

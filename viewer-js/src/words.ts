@@ -3,9 +3,11 @@
 import type { PageData } from "./contract";
 import { type Curve, lastBefore } from "./data";
 
-/** `1:05` or `1:05.2`. */
+const FULL = 0.05; // [s] by which a second is full early: the last frame comes before the end
+
+/** `1:05`, the seconds that are full, or `1:05.2`. */
 export function seconds(time: number, digits = 0): string {
-  const whole = Number(time.toFixed(digits));
+  const whole = digits ? Number(time.toFixed(digits)) : Math.floor(time + FULL);
   const rest = (whole % 60).toFixed(digits).padStart(digits ? digits + 3 : 2, "0");
   return `${Math.floor(whole / 60)}:${rest}`;
 }

@@ -15,7 +15,9 @@ from rich.table import Table
 from rich.text import Text
 
 from onbeat.cli.keypose_input import NO_BEATS, BeatFlags, read_dance, read_example
+from onbeat.cli.keypose_sound import sound_of, titled
 from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
 from onbeat.keyposes.candidates import Thresholds
@@ -121,7 +123,8 @@ def find_command(
         found = find_keyposes(source, beats, method, options)
         document = keyposes_document(found, motion.stem, options if method == "energy" else None)
         if output:
-            _write(output, found, source, document.to_json(), motion.stem, downbeats, cycle, stages)
+            title = titled(motion.stem, flags)
+            _write(output, found, source, document.to_json(), title, downbeats, cycle, flags, stages)
     if json:
         sys.stdout.write(document.to_json().decode())
     else:
@@ -160,7 +163,7 @@ def _options(looks: EnergyFlags, t1: float | None, t2: float | None, file: Path 
 
 def _write(
     folder: Path, found: Keyposes, source: Motion | Markers, document: bytes, title: str, downbeats: np.ndarray,
-    cycle: int | None, stages: Stages,
+    cycle: int | None, flags: BeatFlags, stages: Stages,
 ) -> None:  # fmt: skip
     from onbeat.viewer.keypose_page import write_keypose_page
     from onbeat.viewer.keypose_poses import fitted
@@ -179,7 +182,9 @@ def _write(
     for done, name in enumerate(("keyposes.png", "keyposes.svg", "keyposes.pdf")):
         stages("drawing", 0.2 + 0.25 * done, name)
         save_pages(pages, folder / name)
-    write_keypose_page(folder / "keyposes.html", found, shown, title=title, downbeats=downbeats, cycle=cycle)
+    sound = sound_of(flags, len(source) / source.fps)
+    page = folder / "keyposes.html"
+    write_keypose_page(page, found, shown, title=title, downbeats=downbeats, cycle=cycle, audio=sound)
 
 
 def _print_found(found: Keyposes, name: str) -> None:
@@ -227,7 +232,7 @@ def learn_command(
     looks: EnergyFlags = USUAL,
     tolerance: float = TOLERANCE,
     song_at: float = 0.0,
-    fps: float | None = None,
+    fps: SourceRate = None,
 ) -> None:
     """Learn the thresholds from dances whose keyposes are marked.
 
@@ -293,7 +298,7 @@ def evaluate_command(
     thresholds: Path | None = None,
     plot: Path | None = None,
     song_at: float = 0.0,
-    fps: float | None = None,
+    fps: SourceRate = None,
     seed: int = 0,
     json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
 ) -> None:

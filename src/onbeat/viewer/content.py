@@ -23,13 +23,13 @@ from onbeat.viewer.contract import (
     CapsuleData,
     CurveData,
     KeyposeData,
-    MetricData,
     MoveData,
     PageData,
     pack_curve,
     pack_path,
 )
 from onbeat.viewer.figure import DRESSED, Colour, Figure, ground_height
+from onbeat.viewer.metric_words import told
 from onbeat.viewer.shape import Capsule, capsules
 from onbeat.viewer.steps import steps_of
 
@@ -98,7 +98,7 @@ def page_data(
         energy=None,
         music_intensity=_music_intensity(motion, song),
         motion_intensity=_motion_intensity(motion, body),
-        metrics=_metrics(dance.metrics),
+        metrics=told(dance.metrics),
         steps=steps_of(motion, body),
     )
 
@@ -244,17 +244,3 @@ def _to_unit(values: Array) -> Array:
 def _rounded(times: Sequence[float]) -> list[float]:
     """Seconds to 0.1 ms, in order."""
     return sorted(round(float(time), 4) for time in times)
-
-
-def _metrics(metrics: Mapping[str, Any], prefix: str = "") -> list[MetricData]:
-    """Figures by name, those of parts as ``part · name``; lists are left to ``dance.json``."""
-    made: list[MetricData] = []
-    for name, value in metrics.items():
-        label = f"{prefix}{name}".replace("_", " ")
-        if isinstance(value, Mapping):
-            made += _metrics(value, f"{label} · ")
-        elif isinstance(value, bool | str):
-            made.append(MetricData(label, str(value)))
-        elif isinstance(value, int | float):
-            made.append(MetricData(label, f"{value:.4g}" if np.isfinite(value) else "–"))
-    return made

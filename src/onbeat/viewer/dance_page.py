@@ -9,13 +9,12 @@ import msgspec
 from onbeat._shapes import Float32
 from onbeat.dance.make import Dance
 from onbeat.dance.warp import Warp
-from onbeat.files import write_atomically
 from onbeat.keyposes.extract import Keyposes
 from onbeat.moves.library import MoveLibrary
 from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import PageData, WarpData
 from onbeat.viewer.graph_drawn import drawn_graph
-from onbeat.viewer.page import filled
+from onbeat.viewer.page import write_filled
 
 
 def write_dance_page(
@@ -26,7 +25,7 @@ def write_dance_page(
     keyposes: Keyposes | None = None,
 ) -> None:
     """Write the page of a dance to a file, whole or not at all; arguments and errors as :func:`dance_page_data`."""
-    write_atomically(path, filled(dance_page_data(dance, library, audio, keyposes)))
+    write_filled(path, dance_page_data(dance, library, audio, keyposes))
 
 
 def dance_page_data(

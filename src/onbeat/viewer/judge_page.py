@@ -17,6 +17,7 @@ from onbeat.files import write_atomically
 from onbeat.keyposes.judging import SPACES, VERSION, Trial
 from onbeat.keyposes.lowdim import LowDimensional
 from onbeat.keyposes.playable import bone_ends
+from onbeat.keyposes.vectors import CROWN
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import facing
@@ -28,11 +29,13 @@ LONGEST = 15.0
 """Seconds of each motion: of the cycle that taught, in the middle, or the beginning of that; repeats show as much."""
 _SLOT = b"<!--onbeat-data-->"
 _WIDTHS = {
-    "hip": 170.0, "knee": 110.0, "ankle": 75.0, "collar": 120.0, "shoulder": 120.0, "elbow": 80.0, "wrist": 62.0,
+    "hip": 125.0, "knee": 112.0, "ankle": 75.0, "collar": 100.0, "shoulder": 84.0, "elbow": 80.0, "wrist": 62.0,
     "hand": 58.0, "head": 90.0, "crown": 180.0,
 }  # fmt: skip
 _TRUNK, _THIN = 190.0, 60.0
 _OF_TRUNK = ("hip", "collar", "shoulder")
+_ENDS = {"head": (180.0, 70, 110), "wrist": (56.0, 0, 85)}
+"""Head and hand where a file ends with their joints: width, and from where to where they are past the joint."""
 _COLOURS = {"left": "#2f6f9f", "right": "#c46a2b", "": "#4a5666"}
 
 
@@ -100,20 +103,38 @@ def _data(
         "fps": FPS,
         "points": len(first.points),
         "trunk": _COLOURS[""],
-        "bones": _bones(first.points, bone_ends(found.motions[shown[0]].skeleton, first.joints)),
+        "bones": drawn_bones(first.points, bone_ends(found.motions[shown[0]].skeleton, first.joints)),
         "motions": {found.taught[which].person: _stretches(found, which, repeats) for which in shown},
         "trials": [trial._asdict() for trial in trials],
         **told,
     }
 
 
-def _bones(points: tuple[str, ...], ends: np.ndarray) -> list[list[Any]]:
-    """Points, width in millimetres and colour of each bone; each side has its own colour."""
+def drawn_bones(points: tuple[str, ...], ends: np.ndarray) -> list[list[Any]]:
+    """Points, width in millimetres and colour of each bone; each side has its own colour.
+
+    Heads and hands that a file has no end of follow: with the millimetres past the second point at which they begin
+    and end.
+
+    Examples
+    --------
+    >>> drawn_bones(("neck", "head"), np.array([[0, 1]]))
+    [[0, 1, 90.0, '#4a5666'], [0, 1, 180.0, '#4a5666', 70, 110]]
+    >>> len(drawn_bones(("neck", "head", "crown"), np.array([[0, 1], [1, 2]])))
+    2
+    """
     drawn: list[list[Any]] = []
-    for first, last in ends.tolist():
+    pairs = ends.tolist()
+    for first, last in pairs:
         side, _, part = points[last].rpartition("_")
         width = _WIDTHS.get(part, _THIN if side else _TRUNK)
         drawn.append([first, last, width, _COLOURS.get("" if part in _OF_TRUNK else side, _COLOURS[""])])
+    above = {last: first for first, last in pairs}
+    for point in sorted(set(above) - set(above.values())):
+        side, _, part = points[point].rpartition("_")
+        if part in _ENDS:
+            width, start, end = _ENDS[part]
+            drawn.append([above[point], point, width, _COLOURS.get(side, _COLOURS[""]), start, end])
     return drawn
 
 
@@ -150,7 +171,9 @@ def _motion(found: LowDimensional, which: int, motions: dict[str, Motion], start
     paths = {name: _seen(m, one.vectors.joints, times, turn, middle) for name, m in motions.items()}
     every = np.concatenate(list(paths.values())).reshape(-1, 3)
     low, high = every[:, :2].min(axis=0), every[:, :2].max(axis=0)
-    box = [int(low[0]) - 120, int(high[0]) + 120, min(int(low[1]), 0) - 60, int(high[1]) + 120]
+    # Where the file has no crown a head is drawn on the neck, which reaches higher than its joint.
+    above = 120 if CROWN in one.vectors.points else 220
+    box = [int(low[0]) - 120, int(high[0]) + 120, min(int(low[1]), 0) - 60, int(high[1]) + above]
     return {"frames": len(times), "box": box, "paths": {name: path.ravel().tolist() for name, path in paths.items()}}
 
 

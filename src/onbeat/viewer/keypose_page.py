@@ -8,7 +8,6 @@ import msgspec
 import numpy as np
 
 from onbeat._shapes import Bools, Float32, Times
-from onbeat.files import write_atomically
 from onbeat.keyposes.energy import RATE
 from onbeat.keyposes.extract import Keyposes
 from onbeat.keyposes.points import bridged
@@ -18,7 +17,7 @@ from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import EnergyData, pack_curve
 from onbeat.viewer.keypose_poses import DOT, fitted
 from onbeat.viewer.keypose_rows import downbeats_among, keypose_numbers
-from onbeat.viewer.page import filled
+from onbeat.viewer.page import write_filled
 from onbeat.viewer.shape import Capsule
 
 CURVE_RATE = 40.0
@@ -56,7 +55,7 @@ def write_keypose_page(
     data = page_data(motion, None, document, audio, found, numbers, shape)
     tempo = 60.0 / float(np.median(np.diff(beats)))
     told = [data.beats[k] for k in downbeats_among(beats, down).tolist()]
-    write_atomically(path, filled(msgspec.structs.replace(data, downbeats=told, tempo=tempo, energy=_energy(found))))
+    write_filled(path, msgspec.structs.replace(data, downbeats=told, tempo=tempo, energy=_energy(found)))
 
 
 def _energy(found: Keyposes) -> EnergyData:

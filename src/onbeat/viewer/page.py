@@ -30,7 +30,7 @@ def write_page(
     keyposes: Keyposes | None = None,
 ) -> None:
     """Write the page to a file, whole or not at all; arguments and errors as :func:`render_page`."""
-    write_atomically(path, render_page(motion, song, document, audio, keyposes))
+    write_filled(path, page_data(motion, song, document, audio, keyposes))
 
 
 def render_page(
@@ -56,6 +56,11 @@ def render_page(
         If the document has other fields than ``dance.json``, or the samples are not a sound.
     """
     return filled(page_data(motion, song, document, audio, keyposes))
+
+
+def write_filled(path: str | os.PathLike[str], page: PageData) -> None:
+    """Write the page that shows this to a file, whole or not at all."""
+    write_atomically(path, filled(page))
 
 
 def filled(page: PageData) -> bytes:

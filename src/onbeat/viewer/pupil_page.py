@@ -7,12 +7,11 @@ from pathlib import Path
 
 import msgspec
 
-from onbeat.files import write_atomically
 from onbeat.recognition.ghost import Beside
 from onbeat.viewer.content import body_data, distance_curve, page_data, thinning
 from onbeat.viewer.contract import ComparedData, MetricData, pack_heat
 from onbeat.viewer.heat import UNKNOWN, hex_scale, scale_end
-from onbeat.viewer.page import filled
+from onbeat.viewer.page import write_filled
 
 MASTER = "#9aa3b2"
 """The colour of the master's body: no colour of the scale."""
@@ -41,4 +40,4 @@ def write_pupil_page(
     joins = found.starts[1:].round(4).tolist()
     curve = distance_curve(found.errors, found.pupil)
     shown = msgspec.structs.replace(page, compared=compared, metrics=metrics, joins=joins, motion_intensity=curve)
-    write_atomically(path, filled(shown))
+    write_filled(path, shown)

@@ -33,7 +33,7 @@ NEAR = 0.25
 """A limit of the angle that is farther from the curves than this share of their range is told, not drawn."""
 SLOW = 0.3
 """A limit of the velocity is told, not drawn, where all velocities are under this share of it."""
-FAST = 1.7
+FAST = 3.0
 """The panel of velocities ends at so many times the limit at most: a wish may be many times too fast."""
 MANY = 5
 """Of more layers every other one's spacing is told."""
@@ -116,8 +116,9 @@ def _velocities(axes: Any, result: Retimed, look: Look, times: Times, curves: Se
     if np.isfinite(limit):
         told = f"limit {'±' if hinge else ''}{limit:.0f} °/s"
         most = max(FAST * limit, 1.05 * float(np.abs(drawn[1:]).max()))
-        if np.abs(drawn[0]).max() > most:
-            told += f", wished up to {np.abs(drawn[0]).max():.0f} °/s"
+        wished = float(np.abs(drawn[0]).max())
+        if wished > limit:
+            told += f", wished up to {wished:.0f} °/s" + (", beyond the figure" if wished > most else "")
         if max(top, -bottom) > SLOW * limit:
             bottom, top = max(min(bottom, -limit if hinge else 0.0), -most), min(max(top, limit), most)
     bottom, top = _widened(bottom, top)

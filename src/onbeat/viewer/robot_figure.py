@@ -25,6 +25,8 @@ BOTH, ONE = "#5f86b3", "#2f5f94"
 """Of feet that stand: together with the other, and alone."""
 DEEPEST = -50.0
 """Millimetres under which a margin is told, not drawn."""
+HAIR = 0.05
+"""Millimetres: what is less far outside is on the edge, which no robot feels."""
 AROUND = 0.05
 """Metres of floor shown about the soles."""
 AWAY = 0.25
@@ -182,10 +184,12 @@ def _told(name: str, millimetres: Array) -> str:
     known = millimetres[np.isfinite(millimetres)]
     if not len(known):
         return f"{name} nowhere known"
-    share = 100.0 * float((known >= 0).mean())
+    share = 100.0 * float((known >= -HAIR).mean())
     # 99.97 % is not all of it.
     told = f"{share:.0f}" if share in (0.0, 100.0) else f"{min(share, 99.9):.1f}"
-    return f"{name} {told} % inside, least {known.min():.0f} mm".replace("-", "−")
+    least = float(known.min())
+    deep = "0" if abs(least) < HAIR else f"{least:.{0 if abs(least) >= 1 else 1}f}"
+    return f"{name} {told} % inside, least {deep} mm".replace("-", "−")
 
 
 def _support(axes: Any, times: Times, standing: Bools) -> None:

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import msgspec
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
-from onbeat._shapes import Array, Float32, Times
+from onbeat._shapes import Array, Float32, Positions, Times
 from onbeat.errors import OnbeatError
-from onbeat.files import write_atomically
 from onbeat.motion import Motion
 from onbeat.music.song import Song
 from onbeat.robots.model import Robot
@@ -24,7 +23,6 @@ from onbeat.viewer.content import MAX_FPS, body_data, keypose_data, page_data
 from onbeat.viewer.contract import ComparedData, MoveData, PageData
 from onbeat.viewer.figure import Figure, ground_height
 from onbeat.viewer.keypose_rows import downbeats_among
-from onbeat.viewer.page import filled
 from onbeat.viewer.robot_shape import ROBOT, robot_shape
 from onbeat.viewer.shape import Capsule
 
@@ -32,6 +30,8 @@ EARLY = 0.1
 """Seconds by which a robot may end before the dance without a word: two rates seldom end together."""
 ROOM, FAR = 1.05, 2.6
 """Metres that both keep from each other, and by which they begin apart at most."""
+CALM = 0.7
+"""Seconds over which the dancer's way is smoothed before it is taken off."""
 NONE: Times = np.zeros(0)
 DANCES = "dances"
 """What is said of the robot while it does."""
@@ -52,8 +52,7 @@ class Ending:
         return f"{'falls' if self.fell else 'ends'} at {self.time:.1f} s"
 
 
-def write_robot_page(
-    path: Path,
+def robot_page_data(
     dancer: Motion,
     robot: Motion,
     song: Song | None = None,
@@ -65,28 +64,8 @@ def write_robot_page(
     *,
     model: Robot | None = None,
     fell_at: float | None = None,
-) -> None:
-    """Write the page to a file, whole or not at all; arguments and errors as :func:`robot_page`."""
-    made = robot_page(
-        dancer, robot, song, audio, beats, keyposes, title, notes, model=model, fell_at=fell_at
-    )  # fmt: skip
-    write_atomically(path, made)
-
-
-def robot_page(
-    dancer: Motion,
-    robot: Motion,
-    song: Song | None = None,
-    audio: tuple[Float32, int] | None = None,
-    beats: Times = NONE,
-    keyposes: Times = NONE,
-    title: str = "",
-    notes: Mapping[str, Any] | None = None,
-    *,
-    model: Robot | None = None,
-    fell_at: float | None = None,
-) -> bytes:
-    """The page as bytes of HTML, one file without a server or a network; the same bytes for the same input.
+) -> PageData:
+    """What the page shows, for ``onbeat.viewer.page.write_filled``; the same for the same input.
 
     Parameters
     ----------
@@ -104,25 +83,6 @@ def robot_page(
     OnbeatError
         If times are not finite, the samples are no sound, or the robot's motion is not of the model.
     """
-    return filled(
-        robot_page_data(dancer, robot, song, audio, beats, keyposes, title, notes, model=model, fell_at=fell_at)
-    )
-
-
-def robot_page_data(
-    dancer: Motion,
-    robot: Motion,
-    song: Song | None = None,
-    audio: tuple[Float32, int] | None = None,
-    beats: Times = NONE,
-    keyposes: Times = NONE,
-    title: str = "",
-    notes: Mapping[str, Any] | None = None,
-    *,
-    model: Robot | None = None,
-    fell_at: float | None = None,
-) -> PageData:
-    """What the page shows; arguments and errors as :func:`robot_page`."""
     _check(beats, "beat")
     _check(keyposes, "keypose")
     _check(NONE if fell_at is None else np.array([fell_at]), "fall")
@@ -197,13 +157,23 @@ def _dressed(page: PageData, robot: Motion, shape: list[Capsule] | None) -> Page
 
 
 def _beside(page: PageData, dancer: Motion, robot: Motion, caption: str) -> ComparedData:
-    """The dancer, moved to where the robot begins and onto the floor it stands on."""
-    floor = ground_height(Figure.of(dancer.skeleton), dancer)
-    step = np.append((robot.root_positions - dancer.root_positions)[0, :2], page.floor - floor)
-    moved = dancer.replace(root_positions=dancer.root_positions + step)
+    """The dancer, kept at the robot's side and on the floor it stands on."""
+    moved = dancer.replace(root_positions=kept_beside(dancer, robot, page.floor))
     room = apart(robot.root_positions[:, :2], moved.root_positions[:, :2], page.facing)
     name = dancer.name or "the dancer"
     return ComparedData(name, None, body_data(moved, 1), "dancer", [caption, "dancer"], room)
+
+
+def kept_beside(dancer: Motion, robot: Motion, floor: float) -> Positions:
+    """(F, 3) metres: the dancer's root where it goes with the robot, and the dancer stands on the floor.
+
+    A robot's steps are shorter, and it may not go at all where people do: how far the dancer gets ahead of it, calmly
+    (over :data:`CALM` seconds), is taken off, and steps and sways remain.
+    """
+    ahead = (dancer.root_positions - robot.root_positions)[:, :2]
+    drift = gaussian_filter1d(ahead, CALM * dancer.fps, axis=0, mode="nearest")
+    stands = ground_height(Figure.of(dancer.skeleton), dancer)
+    return dancer.root_positions - np.column_stack((drift, np.full(len(drift), stands - floor)))
 
 
 def _timed(page: PageData, robot: Motion, song: Song | None, keyposes: Times, ending: Ending | None) -> PageData:

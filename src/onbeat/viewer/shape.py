@@ -18,6 +18,8 @@ from onbeat.motion.body import chain_length
 
 ADULT_LEG = 0.82
 """Metres from hip to ankle of the adult for whom the radii below hold."""
+MIDDLE = 0.21
+"""Metres from the height of that adult's shoulder joints up to the middle of the skull."""
 GROUPS = (
     "head",
     "torso",
@@ -99,23 +101,35 @@ def _head(body: Body, size: float) -> list[Capsule]:
     if head == base:
         above = max(0.28 * size, _shoulders_above(body, base) + 0.24 * size)
         return [_skull(body["hips"], base, above, _length(body, body["hips"], base), size)]
+    length = _length(body, base, head)
+    tips = [child for child in body.skeleton.children[head] if body.skeleton.bone_lengths[child] > 0.04 * size]
+    above = _skull_above(body, head, tips, size)
     # Robots have their chest at the waist: the neck begins where the shoulders are.
-    collar = min(max(_shoulders_above(body, base) / max(_length(body, base, head), 1e-3), 0.0), 0.7)
+    collar = min(max(_shoulders_above(body, base) / max(length, 1e-3), 0.0), 0.7)
+    nape = 1.0 if tips else max(1.0, 1.0 + (above - 0.08 * size) / max(length, 0.02 * size))
     neck = [
         Capsule(base, head, 0.084, 0.056, "torso", collar, collar + 0.4 * (1 - collar)),
-        Capsule(base, head, 0.055, 0.05, "head", collar + 0.3 * (1 - collar), 1.0),
+        Capsule(base, head, 0.055, 0.05, "head", collar + 0.3 * (1 - collar), nape),
     ]
-    tips = [child for child in body.skeleton.children[head] if body.skeleton.bone_lengths[child] > 0.04 * size]
+    if not tips:
+        return [*neck, _skull(base, head, above, length, size)]
+    reach = float(body.skeleton.bone_lengths[tips[0]])
+    start, end = (above - 0.025 * size) / reach, (above + 0.02 * size) / reach
+    return [*neck, Capsule(head, tips[0], 0.084, 0.095, "head", start, end)]
+
+
+def _skull_above(body: Body, head: int, tips: list[int], size: float) -> float:
+    """Metres of the skull's middle past the joint of the head.
+
+    Files differ in where along neck and head that joint is, and few have the crown at the end of the head: what they
+    tell counts where the skull then is as high above the shoulders as people's is, or higher.
+    """
+    usual = MIDDLE * size + _shoulders_above(body, head)
     if tips:
-        above = float(body.skeleton.bone_lengths[tips[0]])
-        # The crown is at the tip; where a file's tip is far off, the skull stays near its joint.
-        centre = min(max(above - 0.11 * size, -0.02 * size), 0.11 * size)
-        skull = Capsule(
-            head, tips[0], 0.084, 0.095, "head", (centre - 0.025 * size) / above, (centre + 0.02 * size) / above
-        )
-        return [*neck, skull]
-    above = 0.0 if body.skeleton.end_sites[head] else 0.085 * size  # an end of a bone is the middle of the head
-    return [*neck, _skull(base, head, above, _length(body, base, head), size)]
+        told = min(float(body.skeleton.bone_lengths[tips[0]]) - 0.11 * size, 0.11 * size)
+    else:
+        told = 0.0 if body.skeleton.end_sites[head] else 0.085 * size  # an end of a bone is the middle of the head
+    return max(told, usual - 0.02 * size, -0.02 * size)
 
 
 def _shoulders_above(body: Body, joint: int) -> float:

@@ -22,6 +22,9 @@ PAPER, INK, PLAYED, BEAT, DOWNBEAT, STOP, HEAD = (
     )
 )
 
+ROOM = 40
+"""Pixels of height from which on there is room for words."""
+
 
 def loudness(samples: Float32, columns: int, duration: float, rate: float) -> Array:
     """(columns,) 0…1: the root mean square of each column's share of ``duration`` seconds, over the loudest."""
@@ -43,10 +46,23 @@ class Strip:
 
     @classmethod
     def of(
-        cls, song: Song | None, level: Array | None, stops: Times, duration: float, height: int, width: int
+        cls,
+        song: Song | None,
+        level: Array | None,
+        stops: Times,
+        duration: float,
+        height: int,
+        width: int,
+        marked: str = "stops",
     ) -> Strip:
-        """Draw a strip for ``duration`` seconds; what is not known (song, level) is left out."""
+        """Draw a strip for ``duration`` seconds; what is not known (song, level) is left out.
+
+        ``marked`` says what the marks at ``stops`` are, where the strip has room for words.
+        """
         pictures = [_draw(song, level, stops, duration, height, width, ink) for ink in (INK, PLAYED)]
+        if len(stops) and height >= ROOM and width >= 8 * ROOM:
+            for picture in pictures:
+                _name_marks(picture, marked)
         return cls(pictures[0], pictures[1], duration)
 
     @property
@@ -85,6 +101,19 @@ def _draw(
     tall = max(2, height // 7)
     _ticks(picture, stops, duration, height - tall, height, STOP, max(1, height // 24))
     return picture
+
+
+def _name_marks(picture: np.ndarray, words: str) -> None:
+    """In the corner, over the waveform: a mark, and what it means."""
+    from onbeat.viewer.lettering import write_text
+
+    height = max(picture.shape[0] // 6, 9)
+    ground = picture[: round(1.4 * height), : round((1.5 + 0.62 * len(words)) * height)]
+    ground[:] = PAPER
+    tall = max(2, picture.shape[0] // 7)
+    thick = max(2, picture.shape[0] // 24)
+    ground[: tall + 2][2:, height // 2 : height // 2 + thick] = STOP
+    write_text(ground, words, height, 0, height, (90, 96, 104))
 
 
 def _ticks(

@@ -42,6 +42,7 @@ def write_video(
     fps: float = 30,
     size: Size = (1280, 720),
     stops: Times | None = None,
+    marked: str = "stops",
     figure: Figure | None = None,
     flashes: Flashes | None = None,
     progress: Callable[[float], None] | None = None,
@@ -60,6 +61,7 @@ def write_video(
     fps : frames a second, above 0 and at most 240.
     size : width and height in pixels; even numbers from 16 to 4096.
     stops : seconds at which the dancer stops, marked in the strip.
+    marked : what the strip calls these marks.
     figure : what the body looks like; as its joints' roles tell without it.
     flashes : rings that run over the floor on beats.
     progress : called with the part that is done, 0…1.
@@ -77,8 +79,8 @@ def write_video(
         looks = Figure.of(motion.skeleton) if figure is None else figure
         count = max(1, round(motion.duration * fps))
         level = None if audio is None else loudness(audio[0], size[0], count / fps, audio[1])
-        marked = np.zeros(0) if stops is None else stops
-        strip = Strip.of(song, level, marked, count / fps, max(4, int(size[1] * STRIP)), size[0])
+        times = np.zeros(0) if stops is None else stops
+        strip = Strip.of(song, level, times, count / fps, max(4, int(size[1] * STRIP)), size[0], marked)
         scene = Scene.of(motion, looks, strip, fps, size, flashes)
         _encode(av, temporary, scene, count, fps, audio, progress)
 

@@ -1,6 +1,7 @@
 // What is pressed: buttons and keys, which become commands to the session or change how the page shows it.
 
 import type { Command, HelloData } from "./contract";
+import { shutting } from "../keys";
 import { at, made, on } from "./elements";
 
 const STRUCK = 0.12; // [s] a button shows that its key was pressed
@@ -19,6 +20,7 @@ export class Desk {
     on("sound", () => doings.sound());
     on("follow", () => doings.follow());
     on("dark", () => doings.theme());
+    shutting(at("figures") as HTMLDetailsElement, false);
     addEventListener("keydown", (event) => this.key(event));
     addEventListener("pointerdown", (event) => {
       if (!at("choose").contains(event.target as Node)) this.open(false);

@@ -18,7 +18,7 @@ import { Theme } from "./theme";
 
 const HELD = 0.3; // [s] after the last pose the time stands still
 const KEEP_SOUND = 250; // [ms]
-const ROOM = 1.2; // for raised hands: nobody knows yet what will be danced
+const ROOM = 1.1; // for raised hands: nobody knows yet what will be danced
 const CAMERA_JUMP = 1; // [m] farther than that the camera does not glide
 
 class LiveStage implements Listener {
@@ -151,7 +151,7 @@ class LiveStage implements Listener {
   }
 
   private frame(now: number): void {
-    const seconds = Math.min((now - this.drawnAt) / 1000, 0.1);
+    const seconds = Math.min((now - this.drawnAt) / 1000, 1);
     this.drawnAt = now;
     this.time = this.shown(now / 1000);
     this.beats.update(this.music);

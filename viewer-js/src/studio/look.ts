@@ -35,6 +35,8 @@ class Turned implements Places {
   }
 }
 
+const LEAP = 0.5; // [s] from one picture to the next, from which on somebody sought
+
 export class Look {
   readonly root: HTMLElement;
   private readonly canvas = h("canvas", { class: "scene", role: "img" });
@@ -49,6 +51,7 @@ export class Look {
   private ghosts?: Ghosts;
   private standing = true;
   private told = ""; // who is seen
+  private drawn = 0; // [s] what was drawn last
   view: ViewName = "follow";
 
   constructor() {
@@ -134,6 +137,8 @@ export class Look {
     const beat = lastBefore(scene.beats, at);
     const since = beat < 0 ? 9 : at - scene.beats[beat];
     const down = beat >= 0 && scene.downbeats.some((start) => Math.abs(start - scene.beats[beat]) < 0.01);
+    if (Math.abs(at - this.drawn) > LEAP) this.stage?.jump(); // the camera does not glide after a dancer who was elsewhere
+    this.drawn = at;
     this.stage?.draw(at, seconds, since, playing ? (down ? 1 : 0.55) : 0);
   }
 
@@ -144,9 +149,10 @@ export class Look {
     try {
       const places = new Turned(scene);
       const dancer = new Dancer({ ...scene, floor: 0 }, places);
+      const tall = this.stage ? undefined : dancer.standing(scene.duration); // a camera that was moved stays there
       if (this.stage) this.stage.replace(dancer);
       else this.stage = new Stage(canvas, { floor: 0, facing: 0 }, dancer);
-      this.stage.survey(reachOf(places, scene.joints.length, scene.spine[0], scene.duration, 0));
+      this.stage.survey(reachOf(places, scene.joints.length, scene.spine[0], scene.duration, 0), tall);
       this.stage.look(this.view, true);
       this.placed = false;
       this.furnish(scene, places);
