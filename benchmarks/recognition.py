@@ -13,7 +13,9 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections import Counter
 from collections.abc import Mapping
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +35,7 @@ from onbeat.recognition.protocols import (
     open_set,
     paper_tables,
 )
-from onbeat.recognition.recogniser import Recogniser
+from onbeat.recognition.recogniser import Prediction, Recogniser
 from onbeat.recognition.segments import Segments, segments_of
 from recognition_baselines import learners, literal, ours_across
 
@@ -129,6 +131,7 @@ def troupe(rows: Mapping[str, Learner], *, quick: bool) -> None:
             open_table(segments, some, cycles, both=False)
         if "ours" in rows:
             calibration(segments, what)
+            guesses(segments, what)
 
 
 def calibration(segments: Segments, what: str, cycles: tuple[int, ...] = (0, 1)) -> None:
@@ -146,6 +149,31 @@ def calibration(segments: Segments, what: str, cycles: tuple[int, ...] = (0, 1))
             said, right = (np.concatenate(parts) for parts in zip(*found, strict=True))
             bins = "  ".join(f"{b.said:.2f}/{b.right:.2f} ({b.answers})" for b in reliability(said, right) if b.answers)
             print(f"{factor:8s}{title:12s} off by {calibration_error(said, right):.3f}:  {bins}", flush=True)
+
+
+def guesses(segments: Segments, what: str, cycles: tuple[int, ...] = (0, 1)) -> None:
+    """What is said of steps by new persons, and persons in a new one: each task with each person left out in turn."""
+    teach, said = np.isin(segments.cycle, cycles), dict[str, Counter[str]]()
+    task, person = labels(segments, "task"), labels(segments, "person")
+    for one, other in product(np.unique(task).tolist(), np.unique(person).tolist()):
+        taught = segments[teach & (task != one) & (person != other)]
+        found = Recogniser.train(taught, rng(), newcomers=True).predict(segments[~teach])
+        for answer, t, p in zip(found, task[~teach].tolist(), person[~teach].tolist(), strict=True):
+            kind = f"{'new' if t == one else 'known'} task, {'new' if p == other else 'known'} person"
+            said.setdefault(kind, Counter())[_guess(answer, t, p)] += 1
+    print(f"\n{what}: what is said where one task and one person are new")
+    for kind, counts in sorted(said.items()):
+        shares = (f"{name} {count / counts.total():.3f}" for name, count in counts.most_common())
+        print(f"{kind:26s}{counts.total():5d}: {', '.join(shares)}", flush=True)
+
+
+def _guess(answer: Prediction, task: str, person: str) -> str:
+    """In words: known in one or both, a guess and whether its name is right, or new in both."""
+    if answer.perhaps is None:
+        known = [factor for factor in FACTORS if answer.said(factor)]
+        return f"known {' and '.join(known)}" if known else "new in both"
+    right = answer.said(answer.perhaps) == (task if answer.perhaps == "task" else person)
+    return f"perhaps a {answer.perhaps} ({'right' if right else 'wrong'})"
 
 
 def _half(probes: Segments, factor: str, new: str) -> Segments:
@@ -225,6 +253,7 @@ def main() -> None:
             open_table(segments, {k: v for k, v in rows.items() if "Mini" not in k}, cycles, both=not options.quick)
         if "ours" in rows:
             calibration(segments, "gestures")
+            guesses(segments, "gestures")
     if not options.no_troupe:
         troupe(rows, quick=options.quick)
         told("many segments")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
@@ -9,22 +12,26 @@ import onbeat
 
 ROOMS = {
     "motion": ("motion", "skeleton", "body", "markers", "features", "contacts", "edit", "retarget"),
-    "music": ("listen", "song", "corrections", "causal"),
+    "music": ("listen", "song", "audio", "corrections", "causal"),
     "fetch": ("fetching",),
-    "formats": ("read", "write", "registry", "report"),
+    "capture": ("fit", "gaps", "template"),
     "limits": ("limits", "named", "read", "learned"),
-    "keyposes": ("extract", "motion_tempo", "segments"),
-    "retime": ("retime", "sources", "lock"),
-    "metrics": ("beats", "feet", "intensity", "smoothness", "variety"),
-    "examples": ("performer", "troupe"),
-    "moves": ("library", "build", "embedded"),
-    "recognition": ("recogniser", "labels", "pupil"),
-    "robots": ("model", "perform", "simulate"),
-    "dance": ("make", "wishes", "plan"),
-    "viewer": ("dance_page", "video", "sheet", "raster"),
-    "live": ("session", "cast"),
+    "formats": ("read", "write", "registry", "report"),
+    "keyposes": ("extract", "motion_tempo", "own", "segments"),
+    "retime": ("retime", "meeting", "sources", "lock", "takes", "observe"),
+    "metrics": ("evaluate", "beats", "feet", "intensity", "smoothness", "variety"),
+    "examples": ("", "performer", "troupe"),
+    "moves": ("library", "build", "cache", "store", "embedded"),
+    "recognition": ("whole", "recogniser", "model_file", "labels", "pupil"),
+    "robots": ("model", "on_robot", "perform", "simulate", "trial"),
+    "dance": ("make", "wishes", "plan", "retimed"),
+    "viewer": ("page", "dance_page", "robot_page", "video", "sheet", "raster"),
+    "live": ("rehearsed", "session", "cast"),
+    "studio": ("serve", "app", "project"),
+    "reproduce": ("run", "paper", "data", "result", "study", "study_table"),
+    "cli": ("commands",),
 }
-"""The modules that a program calls, by room; what else there is, ``ARCHITECTURE.md`` lists."""
+"""The modules that a program calls, by room, "" for the room's own; what else there is, ``ARCHITECTURE.md`` lists."""
 
 
 def first_line(module: str) -> str:
@@ -37,25 +44,57 @@ def titled(text: str, line: str) -> str:
     return f"{text}\n{line * len(text)}\n\n"
 
 
+def own_names(module: str) -> list[str]:
+    """The public functions, classes and documented values that are written in a module, in its order.
+
+    Sphinx would find them itself, but it looks at all that is imported, too, and takes twice as long.
+    """
+    body = ast.parse(Path(inspect.getfile(import_module(module))).read_text(encoding="utf-8")).body
+    found: list[str] = []
+    for node, below in zip(body, [*body[1:], None], strict=True):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            found.append(node.name)
+        elif isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant):
+            found += _assigned(node)
+    return [name for name in found if not name.startswith("_")]
+
+
+def _assigned(node: ast.stmt) -> Iterator[str]:
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+    for target in targets:
+        yield from (name.id for name in ast.walk(target) if isinstance(name, ast.Name))
+
+
 def room_page(room: str, modules: tuple[str, ...]) -> str:
     """The page of a room."""
     out = titled(room, "=") + first_line(f"onbeat.{room}") + "\n\n"
     for name in modules:
-        module = f"onbeat.{room}.{name}"
-        out += titled(module, "-") + f".. automodule:: {module}\n   :members:\n\n"
+        module = f"onbeat.{room}.{name}".removesuffix(".")
+        names = ", ".join(own_names(module))
+        out += titled(module, "-") + f".. automodule:: {module}\n" + (f"   :members: {names}\n\n" if names else "\n")
     return out
+
+
+def names_table() -> str:
+    """What ``import onbeat`` gives: each name with its first sentence, where it is described behind it."""
+    out = ".. list-table::\n   :widths: 30 70\n\n"
+    for name in sorted(onbeat.__all__, key=str.lower):
+        value = getattr(onbeat, name)
+        if hasattr(value, "__module__"):
+            role = "class" if isinstance(value, type) else "func"
+            sentence = (value.__doc__ or "").strip().split("\n\n", 1)[0].replace("\n", " ").replace("|", r"\|")
+            out += f"   * - :py:{role}:`{name} <{value.__module__}.{name}>`\n     - {sentence}\n"
+    return out + "\n"
 
 
 def front_page() -> str:
     """What ``import onbeat`` gives, and the rooms."""
-    out = titled("Python names", "=") + "What ``import onbeat`` gives, and where it is described:\n\n"
-    for name in onbeat.__all__:
-        value = getattr(onbeat, name)
-        if hasattr(value, "__module__"):
-            role = "class" if isinstance(value, type) else "func"
-            out += f"- :py:{role}:`onbeat.{name} <{value.__module__}.{name}>`\n"
-    out += "\nErrors that a user can put right:\n\n.. automodule:: onbeat.errors\n   :members:\n\n"
-    return out + ".. toctree::\n   :caption: Rooms\n\n" + "".join(f"   {room}\n" for room in ROOMS)
+    out = titled("Python names", "=") + "What ``import onbeat`` gives; :doc:`../python` has an example of each:\n\n"
+    out += names_table() + "What is wrong and can be put right is one of these errors:\n\n"
+    out += f".. automodule:: onbeat.errors\n   :members: {', '.join(own_names('onbeat.errors'))}\n\n"
+    out += titled("Rooms", "-")
+    out += "".join(f"- :doc:`{room}`: {first_line(f'onbeat.{room}')}\n" for room in ROOMS)
+    return out + "\n.. toctree::\n   :hidden:\n   :caption: Rooms\n\n" + "".join(f"   {room}\n" for room in ROOMS)
 
 
 def write_api(folder: Path) -> None:

@@ -24,6 +24,7 @@ from onbeat.dance.document import DanceDocument
 from onbeat.dance.report import _searched
 from onbeat.dance.search import Found, Searched
 from onbeat.examples.song import demo_song, true_song
+from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import SongDocument
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -50,13 +51,14 @@ def run(code: list[str], folder: Path) -> str:
     return done.stdout
 
 
+@pytest.mark.usefixtures("troupe")
 def test_the_example_of_the_readme_runs(tmp_path: Path):
     (example,) = (text for language, text in BLOCK.findall(README) if language == "python")
     assert len(example.strip().splitlines()) <= 11
     duration, f50 = (float(word) for word in run(["-c", example], tmp_path).split())
     assert duration == pytest.approx(10.0, abs=1 / 30)
     assert f50 > 0.5
-    assert {"dance.bvh", "dance.glb"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"dance.bvh", "faster.glb"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_the_readme_lists_every_command():
@@ -150,6 +152,15 @@ def test_the_moving_picture_of_the_readme_is_small_and_can_be_made_again():
     assert not figure.adjacent[0, -1]
 
 
+def test_the_picture_of_the_studio_is_small_and_shown():
+    make = script("studio_picture")
+    assert make.PICTURE.stat().st_size <= make.LARGEST
+    with Image.open(make.PICTURE) as picture:
+        assert picture.size == make.SIZE
+    assert "docs/pictures/studio.webp" in README
+    assert "pictures/studio.webp" in (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+
+
 def test_the_gallery_lists_its_programs():
     page = (ROOT / "docs" / "gallery" / "README.md").read_text(encoding="utf-8")
     assert re.findall(r"\]\((\d\d_\w+\.py)\)", page) == [path.name for path in GALLERY]
@@ -163,8 +174,9 @@ class Site(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Site:
+def site(tmp_path_factory: pytest.TempPathFactory, troupe: MoveLibrary) -> Site:
     """Built once: it runs the gallery and the notebook, and any warning is an error."""
+    del troupe  # kept in this session's cache, where its programs find it
     folder = tmp_path_factory.mktemp("docs")
     built = Site(folder / "site", folder / "work")
     run([str(ROOT / "docs" / "build_site.py"), "-o", str(built.pages), "--work", str(built.work)], folder)
@@ -206,14 +218,33 @@ def test_the_notebook_runs_from_top_to_bottom_and_is_kept_without_outputs(site: 
     assert "channels over their limits: 0" in text_of(site.pages / "notebook.html")
 
 
-@pytest.mark.parametrize("page", ["extend.md", "metrics.md"])
-def test_examples_print_what_is_written_below_them(page: str, tmp_path: Path):
+@pytest.mark.parametrize(("page", "names"), [("extend.md", "{}"), ("metrics.md", "{}"), ("python.md", "names")])
+@pytest.mark.usefixtures("troupe")
+def test_examples_print_what_is_written_below_them(page: str, names: str, tmp_path: Path):
+    if page == "python.md":
+        pytest.importorskip("mujoco")
+        pytest.importorskip("av")
     blocks = BLOCK.findall((ROOT / "docs" / page).read_text(encoding="utf-8"))
     tried = [(code, said) for (a, code), (b, said) in pairwise(blocks) if (a, b) == ("python", "text")]
     assert tried
-    # Each in its own names, all in one process, so that onbeat is imported once.
-    program = "import sys\nfor code in sys.argv[1:]:\n    exec(code, {'__name__': '__main__'})"
+    # All in one process, so that onbeat is imported once; each in its own names, or in those of the one before.
+    program = f"import sys\nnames = {{}}\nfor code in sys.argv[1:]:\n    exec(code, {names})"
     assert run(["-c", program, *(code for code, _ in tried)], tmp_path) == "".join(said for _, said in tried)
+
+
+def test_every_name_of_the_package_is_there_documented_and_shown():
+    import onbeat
+
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    rooms = {path.name for path in (ROOT / "src" / "onbeat").iterdir() if path.is_dir()}
+    wrong: list[str] = []
+    for name in set(onbeat.__all__) - {"__version__"}:
+        value = getattr(onbeat, name)
+        wrong += [f"{name}: no docstring"] if not (value.__doc__ or "").strip() else []
+        wrong += [f"{name}: nothing in docs/python.md"] if f"onbeat.{name}" not in page else []
+        wrong += [f"{name}: hides the room of that name"] if name in rooms else []
+    assert sorted(wrong) == []
+    assert set(re.findall(r"onbeat\.(\w+)\(", page)) <= set(onbeat.__all__)
 
 
 def test_the_citation_names_this_version():

@@ -6,7 +6,6 @@ import numpy as np
 import soundfile
 
 import onbeat
-from onbeat.examples import embedded_song
 from onbeat.files import make_folder
 from onbeat.music.audio import RATE, read_blocks, read_stereo
 from onbeat.music.clicks import write_with_clicks
@@ -15,7 +14,7 @@ from onbeat.music.picture import write_picture
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
 # The embedded song knows its own beats; here it is only a sound file like any other.
-truth, samples, rate = embedded_song(seconds=20.0)
+truth, samples, rate = onbeat.embedded_song(seconds=20.0)
 soundfile.write(folder / "song.wav", samples, rate)
 
 song = onbeat.listen(folder / "song.wav")

@@ -9,8 +9,7 @@ from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
 from onbeat.files import make_folder
-from onbeat.viewer.page import write_page
-from onbeat.viewer.sheet import contact_sheet, write_png
+from onbeat.viewer.sheet import write_png
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
@@ -26,5 +25,5 @@ hands = motion.at(np.array([1.0, 1.005])).positions[:, onbeat.Body.of(motion.ske
 print(f"the right hand at 1.0 s: {np.round(hands[0], 2)} m")
 
 onbeat.write_motion(motion, folder / "folk_dance.glb")
-write_page(folder / "folk_dance.html", motion)
-write_png(folder / "picture.png", contact_sheet(motion, danced.keyposes[:6], columns=3, size=(280, 280)))
+onbeat.write_page(folder / "folk_dance.html", motion)
+write_png(folder / "picture.png", onbeat.contact_sheet(motion, danced.keyposes[:6], columns=3, size=(280, 280)))

@@ -3,14 +3,13 @@
 import sys
 
 import onbeat
-from onbeat.examples import embedded_song
+from onbeat.dance.sublibrary import sublibrary
 from onbeat.files import make_folder
-from onbeat.moves.embedded import embedded_library
 from onbeat.viewer.figures import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
-song, _, _ = embedded_song(seconds=10.0)
-library = embedded_library()
+song, _, _ = onbeat.embedded_song(seconds=8.0)
+library = sublibrary(onbeat.embedded_library(), song, seconds=100.0)  # a part that suits the song is enough here
 
 figure = new_figure((6.0, 2.6))
 axes = figure.subplots()

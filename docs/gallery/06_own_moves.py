@@ -5,9 +5,7 @@ import sys
 import numpy as np
 
 import onbeat
-from onbeat.examples import embedded_motions, embedded_song
 from onbeat.files import make_folder
-from onbeat.moves.build import build_library
 from onbeat.moves.graph import GRID
 from onbeat.viewer.figures import new_figure, save_figure
 
@@ -15,15 +13,15 @@ folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 
 # A folder of motion capture; here, three clips of the troupe.
 clips = make_folder(folder / "clips")
-for number, motion in enumerate(embedded_motions()[:3]):
+for number, motion in enumerate(onbeat.embedded_motions()[:3]):
     onbeat.write_motion(motion, clips / f"clip_{number}.bvh")
 
 # Only what changed since the last time is read.
-library = build_library([clips], folder / "library")
+library = onbeat.build_library([clips], folder / "library")
 for line in (*library.notes, *library.problems):
     print(line)
 
-song, _, _ = embedded_song(seconds=8.0)
+song, _, _ = onbeat.embedded_song(seconds=6.0)
 dance = onbeat.make_dance(song, library)
 print(f"{dance.motion.duration:.2f} s of dance with {len(dance.document.joins)} joins")
 print(f"from {library.seconds:.0f} s of motion")

@@ -5,20 +5,20 @@ from pathlib import Path
 
 import numpy as np
 
+import onbeat
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
-from onbeat.keyposes.extract import find_keyposes
 from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.keyposes.segments import segments
 from onbeat.viewer.keypose_sheet import write_keypose_sheet
-from onbeat.viewer.sheet import contact_sheet, write_png
+from onbeat.viewer.sheet import write_png
 
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")
 made.mkdir(exist_ok=True)
 danced = perform(DANCERS[3], [FOLK_DANCE], speed=1.0, cycles=2, rng=np.random.default_rng(0))
 
-found = find_keyposes(danced.motion, danced.beats)
+found = onbeat.find_keyposes(danced.motion, danced.beats)
 off = np.abs(found.times[:, None] - danced.keyposes).min(axis=0)
 print(f"{len(found)} keyposes; the true ones are at most {1000 * off.max():.0f} ms from one that was found")
 
@@ -32,4 +32,4 @@ longest = max(segments(found), key=lambda part: part.duration)
 print(f"the longest segment goes from {longest.start:.2f} to {longest.end:.2f} s")
 
 print(f"a sheet to print: {write_keypose_sheet(made / 'keyposes.png', found, danced.motion, cycle=12)[0]}")
-write_png(made / "picture.png", contact_sheet(danced.motion, found.times[:8], columns=4, size=(240, 240)))
+write_png(made / "picture.png", onbeat.contact_sheet(danced.motion, found.times[:8], columns=4, size=(240, 240)))

@@ -5,14 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+import onbeat
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
-from onbeat.formats.write import write_motion
-from onbeat.limits.learned import learned_limits
-from onbeat.retime.lock import TimeMap
-from onbeat.retime.retime import retime
-from onbeat.retime.sources import source_of
 from onbeat.viewer.limits_figure import write_limits_figure
 from onbeat.viewer.retime_figure import write_retime_figure
 from onbeat.viewer.retime_page import write_retime_page
@@ -20,12 +16,9 @@ from onbeat.viewer.retime_page import write_retime_page
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")
 made.mkdir(exist_ok=True)
 danced = perform(DANCERS[3], [FOLK_DANCE], speed=1.0, cycles=1, rng=np.random.default_rng(0))
-limits = learned_limits([danced.motion])
+known = {"limits": onbeat.learned_limits([danced.motion]), "beats": danced.beats, "keyposes": danced.keyposes}
 
-results = [
-    retime(source_of(danced.motion), TimeMap.steady(1.3), limits, danced.beats, danced.keyposes, method)
-    for method in ("qp", "layers-qp", "clamp")
-]
+results = [onbeat.retime_motion(danced.motion, 1.3, **known, method=method) for method in ("qp", "layers-qp", "clamp")]
 print("method     channels over their limits   worst keypose   from the wish (rms)   peak acceleration")
 for found in results:
     figures = found.measures
@@ -34,7 +27,7 @@ for found in results:
     print(f"{found.method:10} {over:26} {keypose:14.2f}° {rms:20.2f}° {peak:13.0f} rad/s²")
 
 print(f"{danced.motion.duration:.2f} s became {results[0].dance.duration:.2f} s; every beat is where the music has it")
-write_motion(results[0].dance, made / "faster.bvh")
+onbeat.write_motion(results[0].dance, made / "faster.bvh")
 write_retime_page(made / "retimed.html", results[0], danced.motion)
 write_retime_figure(made / "picture.png", results)
 write_limits_figure(made / "limits.png", results)

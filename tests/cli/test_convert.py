@@ -128,7 +128,7 @@ def test_a_roles_file_is_used(tmp_path, monkeypatch, capsys):
     ("words", "message"),
     [
         (("none.bvh", "b.glb"), "no file"),
-        (("a.npz",), "1 files given"),
+        (("a.npz",), "only a.npz is given; a file to read and one to write"),
         (("a.npz", "b.fbx"), "cannot write"),
         (("a.npz", "b.glb", "--up", "z"), "always in metres with Y up"),
         (("a.npz", "b.bvh", "--fps", "0"), "give a rate"),

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 import soundfile
 
-from onbeat.cli import dance as command
 from onbeat.cli import main
+from onbeat.cli.dance_told import TOLD
 from onbeat.dance.document import DanceDocument
 from onbeat.formats import read_motion, write_motion
 from onbeat.music.song import Song
@@ -80,8 +80,8 @@ def test_table_and_what_next(run: Run, song: Path, clips: Path, out: Path) -> No
     status, printed, err = run(song, "--moves", clips, "--fps", 20, "-o", out)
     assert (status, err) == (0, "")
     assert "on the beat, ±50 ms" in printed
-    assert f"Look at it: open {out / 'dance.html'}" in printed
-    assert f"onbeat dance {song} --moves {clips} --video" in printed
+    assert f"Look at it: open {out / 'dance.html'} (" in printed
+    assert f"onbeat dance {song} --moves {clips} --fps 20 -o {out} --video\n" in printed
     assert {path.name for path in out.iterdir()} == FILES
 
 
@@ -121,7 +121,7 @@ def test_a_broken_clip_is_left_out_and_told(run: Run, song: Path, clips: Path, o
     status, _, err = run(song, "--moves", folder, "--fps", 10, "-o", out)
     assert status == 0
     lines = err.splitlines()
-    assert len(lines) == command.TOLD + 1
+    assert len(lines) == TOLD + 1
     assert lines[0].startswith("onbeat: left out [0].bvh: ")
     assert lines[-1] == "onbeat: … and 4 more; `onbeat moves build` tells all"
 

@@ -49,12 +49,22 @@ def one_line(err: str) -> bool:
         (("empty.wav",), "the file is empty"),
         (("silent.wav",), "silent for all of its 3.0 s"),
         (("half.wav",), "0.50 s is too short"),
-        (("long.flac",), "lasts 180 minutes; a dance lasts at most 20: choose a stretch"),
+        (("long.flac",), "long.flac lasts 180:00 minutes; a dance lasts at most 20:00 minutes: choose a stretch"),
         (("SONG", "--moves", "missing"), "no file or folder missing"),
         (("SONG", "--moves", "folder"), "no motion files in folder"),
         (("SONG", "--moves", "broken"), "none of 2 files can be used; 0.bvh"),
         (("SONG", "--moves", "tiny"), "no joint found for chest"),
-        (("SONG", "--moves", "text.wav"), "the only file cannot be used; text.wav"),
+        (("SONG", "--moves", "text.bvh"), "the only file cannot be used; text.bvh"),
+        (("folder", "--moves", "text.wav"), "text.wav is a song, no motion; give `onbeat dance folder --moves MOTION`"),
+        (("text.wav", "empty.wav"), "empty.wav is a song, no motion; give `onbeat dance text.wav --moves MOTION`"),
+        (
+            ("tiny", "text.wav"),
+            "tiny is motion, no song and text.wav is a song, no motion: they look swapped; give "
+            "`onbeat dance text.wav --moves tiny`",
+        ),
+        (("text.bvh",), "text.bvh is motion, no song; give `onbeat dance SONG --moves text.bvh`"),
+        (("--source-fps", "0"), "--source-fps 0: give a rate"),
+        (("--source-fps", "60"), "--source-fps: it is the rate of the files of --moves"),
         (("-o", "text.wav"), "text.wav is not a folder"),
         (("-o", "text.wav/a/b"), "text.wav is not a folder"),
         (("-o", "x" * 300), "File name too long"),
@@ -78,6 +88,7 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("wrong")
     (folder / "folder").mkdir()
     (folder / "text.wav").write_text("hello")
+    (folder / "text.bvh").write_text("hello")
     (folder / "empty.wav").touch()
     soundfile.write(folder / "silent.wav", np.zeros(24000), 8000)
     soundfile.write(folder / "half.wav", np.ones(4000) * 0.3, 8000)
@@ -94,7 +105,7 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("words", [("--seconds", "abc"), ("--method", "knit"), ("--foo",), ("a", "b")])
+@pytest.mark.parametrize("words", [("--seconds", "abc"), ("--method", "knit"), ("--foo",), ("a", "b", "c")])
 def test_usage_exits_with_2(run: Run, words: tuple[str, ...]) -> None:
     status, printed, err = run(*words)
     assert status == 2
@@ -133,7 +144,7 @@ def test_stopped_in_a_compiled_loop(run: Run, song: Path, out: Path, monkeypatch
     def loop(*_: object) -> None:
         raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
 
-    monkeypatch.setattr(command, "_hear", loop)
+    monkeypatch.setattr(command, "hear", loop)
     assert run(song, "-o", out) == (130, "", "onbeat: stopped\n")
 
 
@@ -141,7 +152,7 @@ def test_a_screen_that_is_full_is_told(run: Run, song: Path, out: Path, monkeypa
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(command, "_hear", full)
+    monkeypatch.setattr(command, "hear", full)
     monkeypatch.setattr("onbeat.cli.os.dup2", lambda *_: None)
     assert run(song, "-o", out) == (1, "", "onbeat: standard output: No space left on device\n")
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from onbeat import cli
-from onbeat.cli.evaluate import evaluate_motion
 from onbeat.formats import write_motion
+from onbeat.metrics.evaluate import evaluate_motion
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 from onbeat.music import Song
@@ -67,10 +67,13 @@ def test_a_motion_off_every_beat() -> None:
     assert evaluate_motion(swinging(), song(first=0.5))["beats"]["f100"] == 0.0
 
 
-def test_a_tempo_too_fast_to_dance_to_is_halved() -> None:
+def test_a_tempo_too_fast_to_dance_to_is_halved_and_told(files, tmp_path: Path, monkeypatch, capsys) -> None:
     beats = np.arange(0.25, 12.0, 0.25)
     fast = Song(12.0, 240.0, 4, beats, beats[::4], np.zeros(len(beats)), [0.0, 12.0], [0.2, 0.9])
     assert evaluate_motion(swinging(), fast)["beats"]["recall50"] > 0.9
+    (tmp_path / "fast.json").write_bytes(fast.to_json())
+    assert run(monkeypatch, files[0], "--music", str(tmp_path / "fast.json")) == 0
+    assert "24 beats, half of those heard" in capsys.readouterr().err
 
 
 def test_json(files, monkeypatch, capsys) -> None:

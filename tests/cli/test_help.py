@@ -36,6 +36,23 @@ def test_a_list_of_commands_says_what_each_does(name: str, capsys: pytest.Captur
     assert all(len(line) == 2 for line in lines), f"no word about some of {[line[0] for line in lines]}"
 
 
+def test_commands_of_commands_give_examples_too(capsys: pytest.CaptureFixture[str]):
+    pairs = [(name, part) for name in COMMANDS for part in app[name] if not part.startswith("-")]
+    assert {name for name, _ in pairs} >= {"moves", "songs", "keyposes", "recognise", "reproduce"}
+    assert [pair for pair in pairs if "Example: onbeat" not in help_of(capsys, *pair)] == []
+
+
+READERS = (
+    "dance", "keyposes", "keyposes learn", "keyposes evaluate", "lowdim", "recognise", "recognise train", "observe",
+    "retime", "evaluate", "convert", "info", "robot", "live", "moves build", "reproduce", "reproduce study",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("command", READERS)
+def test_the_rate_of_a_file_is_said_alike_in_all_commands(command: str, capsys: pytest.CaptureFixture[str]):
+    assert "--source-fps" in help_of(capsys, *command.split())
+
+
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_example_is_taken(name: str):
     program, *words = shlex.split(COMMANDS[name][2])

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from onbeat.cli.live_flags import HearFlags, SendFlags
+from onbeat.cli.live_screen import words
 from onbeat.errors import OnbeatError
 
 LIVE = [sys.executable, "-c", "from onbeat.cli import main; main()", "live"]
@@ -35,6 +36,18 @@ def dance(tmp_path_factory) -> Path:
     path = tmp_path_factory.mktemp("live") / "bounce.bvh"
     write_motion(dance_library()[0].motion, path)
     return path
+
+
+def test_how_it_went_says_of_what_a_share_is_and_whether_that_is_bad():
+    told = {
+        "ticks": 4020,
+        "without_sound": 0,
+        "cpu": 0.2,
+        "mouths": [{"name": "page", "sent": 4020, "punctual": 0.2167}],
+    }
+    assert "page: 4020 poses, 21.7% of them sent within 10 ms of when they were due: too few" in words(told)
+    told["mouths"] = [{"name": "page", "sent": 4020, "punctual": 0.9991}, {"name": "osc", "sent": 9}]
+    assert words(told).endswith("page: 4020 poses, 99.9% of them sent within 10 ms of when they were due; osc: 9 poses")
 
 
 def test_a_session_is_kept_and_danced_again_to_the_bit(tmp_path, dance):

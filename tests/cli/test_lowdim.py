@@ -8,6 +8,7 @@ import pytest
 
 from folk_dancers import dancers
 from onbeat.cli.lowdim import lowdim_command
+from onbeat.cli.lowdim_pulses import tell_unlike_pulses
 from onbeat.errors import OnbeatError
 from onbeat.formats import read_motion, write_motion
 from onbeat.keyposes.lowdim_document import LowdimDocument
@@ -191,3 +192,10 @@ def test_a_motion_that_stands_still_has_no_keyposes(tmp_path, run):
     (tmp_path / "still.beats").write_text("\n".join(str(beat / 2) for beat in range(30)))
     with pytest.raises(OnbeatError, match="still"):
         run(tmp_path / "still.bvh", "--beats", tmp_path / "still.beats")
+
+
+def test_pulses_that_are_no_one_dances_are_told(capsys):
+    tell_unlike_pulses(["a.bvh", "b.bvh", "c.bvh"], [100.0, 110.0, None])
+    assert capsys.readouterr().err == ""
+    tell_unlike_pulses(["a.bvh", "b.bvh", "c.bvh"], [240.0, 97.0, None])
+    assert "are not one dance's (a.bvh 240, b.bvh 97 a minute)" in capsys.readouterr().err

@@ -39,6 +39,8 @@ def test_without_motions_both_insights_come_out(onbeat: Run) -> None:
     assert (status, err) == (0, "")
     told = json.loads(out)
     slow, middle, fast, every = told["curves"]
+    assert min(told["likeness"]) > 0.9
+    assert abs(told["likeness_shifted"][0]) < 0.2
     assert [each["repetitions"] for each in told["curves"]] == [5, 5, 5, 15]
     # Insight 1: the fine layers go first.
     assert fast["ratio"][3] < 0.2 < middle["ratio"][3] < 0.6
@@ -94,10 +96,27 @@ def test_keyposes_lie_beside_the_first_motion_or_are_given(onbeat: Run, folder: 
 
 
 def test_cycles_of_one_take_need_no_other(onbeat: Run, folder: Path) -> None:
-    status, out, _ = onbeat("observe", folder / "slow_1.npz", "--cycle", "4", "--joints", "left_shoulder,Head")
+    status, out, err = onbeat("observe", folder / "slow_1.npz", "--cycle", "4", "--joints", "left_shoulder,Head")
     assert status == 0
     assert "cycles of 4 beats, 3 at 1×; 2 joints" in out
     assert "slope" not in out
+    assert "cycles of slow_1.npz (" in err
+    assert "does the dance repeat after 4 beats?" in err
+
+
+def test_takes_of_different_dances_are_told(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    strange = embedded("river dance", takes=1).takes[0]
+    write_motion(strange.motion, tmp_path / "river.npz")
+    (tmp_path / "river.beats").write_text("".join(f"{beat:.4f}\n" for beat in strange.beats))
+    status, out, err = onbeat("observe", folder / "slow_1.npz", folder / "slow_2.npz", tmp_path / "river.npz")
+    assert status == 0
+    assert "river.npz (0.0" in err
+    assert "does not look like the others" in err
+    assert "likeness of the takes: 0.3" in out
+    _, _, err = onbeat("observe", folder / "slow_1.npz", tmp_path / "river.npz")
+    assert "do not look like one dance" in err
+    _, _, err = onbeat("observe", folder / "slow_1.npz", folder / "slow_2.npz")
+    assert "look like" not in err
 
 
 def test_keyposes_of_several_cycles_are_one_each() -> None:

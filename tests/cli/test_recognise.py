@@ -44,6 +44,32 @@ def test_steps_and_dancers_are_known_again(onbeat: Run, folder: Path, model: Pat
     assert "task: 6 of 6 right" in out
 
 
+def test_a_known_step_by_somebody_new_is_told_as_perhaps_it(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    head, *lines = (folder / "taught.csv").read_text().splitlines()
+    lines += (folder / "other.csv").read_text().splitlines()[1:]
+    people = tmp_path / "few.csv"
+    few = [f"{folder}/{line}" for line in lines if "Bruno" not in line]
+    people.write_text("\n".join((head, *few)) + "\n")
+    status, out, _ = onbeat("recognise", "train", people, "-o", tmp_path / "m.npz")
+    assert status == 0
+    assert "a known task by somebody new is called perhaps known (100% of them by the right name" in out
+    status, out, err = onbeat("recognise", tmp_path / "m.npz", folder / "tried.csv")
+    assert status == 0
+    told = [line for line in out.splitlines() if line.startswith("Bruno")]
+    assert "perhaps claps" in told[0]
+    assert ", by somebody new" in told[0]
+    assert '"perhaps": too far for a repetition' in err
+    assert "times too far)" in out
+    _, out, _ = onbeat("recognise", tmp_path / "m.npz", folder / "tried.csv", "--json")
+    rows = json.loads(out)["segments"]
+    (row,) = (row for row in rows if row["file"].endswith("Bruno claps.npz"))
+    assert (row["perhaps"], row["task"]["known"], row["task"]["across"][0]["name"]) == ("task", False, "claps")
+    one = tmp_path / "one.csv"
+    one.write_text("\n".join((head, *(line for line in few if "Aiko" in line))) + "\n")
+    _, out, _ = onbeat("recognise", "train", one, "-o", tmp_path / "m.npz")
+    assert "a known task by somebody new is called new (to have it told teach 3 tasks or more" in out
+
+
 def test_all_matches_are_listed_with_their_chances(onbeat: Run, folder: Path, model: Path) -> None:
     status, out, _ = onbeat("recognise", model, folder / "tried.csv", "--json")
     assert status == 0

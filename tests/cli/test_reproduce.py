@@ -12,6 +12,7 @@ import onbeat.reproduce.run as run
 from made_results import MadePaper
 from onbeat.cli.reproduce import reproduce_app
 from onbeat.errors import OnbeatError
+from onbeat.reproduce.place import place_for
 
 
 @pytest.fixture(autouse=True)
@@ -62,13 +63,19 @@ def test_a_folder_that_cannot_be_is_refused_before_the_work(tmp_path: Path, monk
 
 
 def test_only_one_at_a_time_writes_into_a_folder_and_what_came_to_nothing_is_taken_away(tmp_path: Path):
-    with run.place_for(tmp_path / "out", ["P1"]):
-        with pytest.raises(OnbeatError, match=r"being built by process .*choose another folder"):
+    with place_for(tmp_path / "out", []):
+        with pytest.raises(OnbeatError, match=r"being written by process .*choose another folder"):
             call("P1", "-o", str(tmp_path / "out"))
         assert (tmp_path / "out").is_dir()
-    with pytest.raises(KeyboardInterrupt), run.place_for(tmp_path / "stopped", ["P1"]):
+    with pytest.raises(KeyboardInterrupt), place_for(tmp_path / "new" / "stopped", []):
         raise KeyboardInterrupt
-    assert not (tmp_path / "stopped").exists()
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+    assert not any((tmp_path / "out").iterdir())  # nor does its lock stay
+
+
+def test_progress_is_told_in_lines_where_stderr_is_no_screen(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    call("P3", "-o", str(tmp_path))
+    assert capsys.readouterr().err.splitlines() == ["onbeat: P3, 50 %: half of it"]
 
 
 def test_the_study_is_told_of_in_the_help(capsys: pytest.CaptureFixture[str]):

@@ -90,7 +90,10 @@ def test_every_method_can_be_chosen_and_one_file_be_asked_for(onbeat: Run, folde
         (["dance.bvh", "--speed", "1", "--music", "song.beats"], "one of them"),
         (["dance.bvh", "--speed", "0"], "--speed 0: give 0.1 to 10"),
         (["dance.bvh", "--speed", "nan"], "--speed nan: give 0.1 to 10"),
-        (["dance.bvh", "--speed", "1.2", "--robot", "g1"], "no limits for"),
+        (
+            ["dance.bvh", "--speed", "1.2", "--robot", "g1"],
+            "of Unitree G1: `onbeat robot` puts it on",
+        ),
         (["dance.bvh", "--speed", "1.2", "--robot", "r2d2"], "r2d2"),
         (["angles.csv", "--speed", "1.2"], "give --robot NAME or --limits FILE.toml"),
         (["angles.csv", "--speed", "1.2", "--robot", "talos", "--limits", "talos.toml"], "give one of them"),

@@ -35,12 +35,16 @@ def test_a_dance_to_a_song_is_simulated_and_exported(onbeat: Run, folder: Path) 
     assert status == 0, err
     assert "0 joints in position, 0 in velocity" in out
     assert "upright to the end" in out
+    assert "planned: zero-moment point inside the soles 100% of the time" in out
+    assert "measured: centre of pressure inside the soles" in out
     assert {path.name for path in (folder / "out").iterdir()} >= {
         "dance.csv", "dance.tracking.npz", "dance.gmr.npz", "dance.joints.csv", "dance.pos", "dance.waist", "dance.zmp",
         "dance.mcap", "dance.glb", "robot.json", "robot.png", "robot.html",
     }  # fmt: skip
     told = json.loads((folder / "out/robot.json").read_bytes())
     assert told["trial"]["fell_at"] is None
+    assert 0.95 < told["trial"]["inside"] <= 1
+    assert told["trial"]["worst_mm"] < told["zmp"]["worst_mm"]
     song = np.loadtxt(folder / "song.beats")
     count = min(len(song), len(told["beats"]))
     assert np.abs(np.array(told["beats"])[:count] - song[:count]).max() < 1 / 30

@@ -112,7 +112,7 @@ def test_it_says_how_far_it_is(few: MoveLibrary) -> None:
 @pytest.mark.parametrize(
     ("song", "options", "message"),
     [
-        (song_of(LONGEST + 60), {}, "lasts 21 minutes; a dance lasts at most 20: choose a stretch with --start"),
+        (song_of(LONGEST + 60), {}, "lasts 21:00 minutes; a dance lasts at most 20:00 minutes: choose a stretch"),
         (replace(song_of(3.0), **ONE_BEAT), {}, "one beat is heard"),
         (song_of(4.0), {"fps": 0.0}, "0 frames a second cannot be"),
         (song_of(4.0), {"fps": 1e9}, "frames a second cannot be"),

@@ -19,7 +19,7 @@ from recognition_takes import takes
 
 @pytest.fixture(scope="module")
 def recogniser() -> Recogniser:
-    return Recogniser.train(takes(2), np.random.default_rng(0))
+    return Recogniser.train(takes(2), np.random.default_rng(0), newcomers=True)
 
 
 @pytest.fixture
@@ -72,8 +72,16 @@ def test_a_missing_file_and_a_missing_folder_are_said(recogniser: Recogniser, tm
 
 
 def test_another_version_is_refused(stored: Path):
-    with pytest.raises(FormatError, match="version 2, this program reads 1"):
-        load_recogniser(with_header(stored, version=2))
+    with pytest.raises(FormatError, match="version 3, this program reads 1 and 2"):
+        load_recogniser(with_header(stored, version=3))
+
+
+def test_a_file_of_the_version_before_guesses_nothing(recogniser: Recogniser, stored: Path):
+    old = load_recogniser(with_header(stored, version=1, task_across=None, person_across=None))
+    assert recogniser.across.task is not None
+    assert old.across == (None, None)
+    for one, before in zip(recogniser.predict(takes(1)), old.predict(takes(1)), strict=True):
+        assert before == one._replace(task_across=(), person_across=())
 
 
 def test_another_programs_archive_is_refused(tmp_path: Path, stored: Path):

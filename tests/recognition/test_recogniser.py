@@ -62,6 +62,39 @@ def test_what_was_left_out_is_new(known: Segments):
     assert said["lift", "Ana"].person_known
 
 
+def test_what_is_beyond_a_repetition_is_perhaps_known_across_the_other_factor(known: Segments):
+    drawn = rng()
+    model = Recogniser.train(chosen(known, task="wave", person="Dora"), drawn, newcomers=True)
+    guesses = {
+        pair: [
+            one for one, *of in zip(model.predict(known), known.task, known.person, strict=True) if tuple(of) == pair
+        ]
+        for pair in (("lift", "Dora"), ("wave", "Ana"), ("wave", "Dora"), ("lift", "Ana"))
+    }
+    assert [one.said("task") for one in guesses["lift", "Dora"]] == ["lift"] * 3
+    assert "task" in {one.perhaps for one in guesses["lift", "Dora"]}
+    assert [one.said("person") for one in guesses["wave", "Ana"]] == ["Ana"] * 3
+    assert {one.said("task") for one in guesses["wave", "Ana"]} == {""}
+    assert {(one.perhaps, one.said("task")) for one in guesses["wave", "Dora"]} == {(None, "")}
+    assert {one.perhaps for one in guesses["lift", "Ana"]} == {None}
+    # Nothing else is another for it: neither what is known, nor what is drawn next.
+    other = rng()
+    plain = Recogniser.train(chosen(known, task="wave", person="Dora"), other)
+    assert other.integers(1 << 40) == drawn.integers(1 << 40)
+    strict = [one._replace(task_across=(), person_across=()) for one in model.predict(known)]
+    assert strict == plain.predict(known)
+
+
+def test_nothing_is_guessed_across_where_that_could_not_be_tried_or_fails(known: Segments):
+    alone = Recogniser.train(chosen(known, person="Dora", task="wave")[:9], rng(), newcomers=True)
+    assert alone.person is not None
+    assert alone.across == (None, None)
+    assert Recogniser.train(known, rng(), across=True, newcomers=True).across == (None, None)
+    tasks, people = (np.unique(of, return_inverse=True)[1] for of in (known.task, known.person))
+    mixed = replace(known, person=tuple(sorted(set(known.person))[i] for i in (tasks + people) % 4))
+    assert Recogniser.train(mixed, rng(), newcomers=True).across.person is None  # another body in each task
+
+
 def test_matches_are_ranked_and_their_probabilities_leave_room_for_new(recogniser: Recogniser, known: Segments):
     for one in recogniser.predict(known[:3]):
         chances = [match.probability for match in one.task_scores]

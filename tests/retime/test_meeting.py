@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from onbeat.errors import PlanError
-from onbeat.retime.meeting import meet
+from onbeat.music.song import Song
+from onbeat.retime.meeting import meet, wanted_time
 
 
 @pytest.mark.parametrize(("period", "fold"), [(0.5, 1), (0.36, 1), (0.25, 2), (0.125, 4), (1.0, 0.5), (2.0, 0.25)])
@@ -34,3 +35,13 @@ def test_a_song_that_ends_first_has_as_many_beats_as_it_has():
 def test_less_than_two_beats_that_meet_are_refused(dance, music, first):
     with pytest.raises(PlanError, match="beat"):
         meet(np.array(dance, dtype=float), np.array(music, dtype=float), first)
+
+
+def test_a_song_is_danced_to_from_its_first_downbeat_until_its_end():
+    beats = np.arange(0.3, 12.0, 0.4)
+    song = Song(12.0, 150.0, 4, beats, beats[2::4], np.zeros(len(beats)), [0.0, 12.0], [0.5, 0.5])
+    wanted = wanted_time(np.arange(20) * 0.5, song=song)
+    assert wanted.until == 12.0
+    assert wanted.warp.inverse(np.array([0.0, 0.5])) == pytest.approx(beats[2:4], abs=0.006)
+    with pytest.raises(PlanError, match=r"a speed of 1.2 and a song: give one of them"):
+        wanted_time(np.arange(20) * 0.5, 1.2, song)

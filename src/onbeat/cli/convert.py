@@ -102,7 +102,8 @@ def convert_command(
         What is done on the way.
     """
     if len(files) < 2:
-        raise FormatError(f"{len(files)} files given; a file to read and one to write are expected")
+        given = f"only {files[0]} is given" if files else "no file is given"
+        raise FormatError(f"{given}; a file to read and one to write are expected: `onbeat convert OLD.bvh NEW.glb`")
     *sources, target = files
     into = writing(target)
     _check(options, into)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-import shlex
 import shutil
 import sys
 import tempfile
@@ -14,39 +13,37 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import cyclopts
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
 from threadpoolctl import threadpool_limits
 
-from onbeat._shapes import Float32
 from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
+from onbeat.cli.dance_song import Sound, hear
+from onbeat.cli.dance_told import next_command, tell_left_out, tell_made, tell_remarks
 from onbeat.cli.fetching import moves_path, song_path
 from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.cli.swapped import refuse_swapped
 from onbeat.cli.video_flags import NO_VIDEO, Film, VideoFlags
 from onbeat.cli.wish_flags import NO_WISH_FLAGS, WishFlags
 from onbeat.dance.make import LONGEST, Dance, make_dance
 from onbeat.errors import LibraryError, OnbeatError, PlanError
 from onbeat.files import make_folder
 from onbeat.moves.library import MoveLibrary
-from onbeat.music.fixes import Corrections
-from onbeat.music.song import Song
 
 if TYPE_CHECKING:
     from onbeat.keyposes.extract import Keyposes
 
-Sound = tuple[Float32, int]
-FPS = (1.0, 1000.0)
-EMBEDDED = 60.0  # seconds of the embedded song where no others are asked for
-SOUND = 48000  # Hz, the highest rate that pages and films hold
-TOLD = 5  # files left out that are told one by one
+FPS, RATES = (1.0, 1000.0), (0.1, 10000.0)
+PARTS = {
+    "listening": 14.0, "moves": 4.0, "searching": 24.0, "dancing": 11.0, "warping": 15.0, "measuring": 10.0,
+    "writing": 22.0,
+}  # fmt: skip
+"""How long the stages last against each other."""
 
 
 def dance_command(
     song: Path | None = None,
     /,
-    *,
     moves: Path | None = None,
+    *,
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])] = Path("dance"),
     seconds: float | None = None,
     start: float = 0.0,
@@ -54,6 +51,7 @@ def dance_command(
     method: Literal["optimal", "shiratori2006", "greedy", "walk"] = "optimal",
     rhythm_only: Annotated[bool, cyclopts.Parameter(negative="")] = False,
     fps: float | None = None,
+    source_fps: float | None = None,
     warp: bool = True,
     mirror: bool = True,
     video: VideoFlags = NO_VIDEO,
@@ -69,8 +67,8 @@ def dance_command(
         Any audio file: wav, flac, ogg, mp3; m4a and video with the extra ``video``; or ``song:NAME`` of one that
         ``onbeat songs fetch`` fetched. Without one the embedded song is played.
     moves
-        Motion files of any kind, a folder of them, a library made by ``onbeat moves build``, or the name of a set that
-        ``onbeat moves fetch`` fetched. Without it the embedded troupe dances.
+        A motion file (.bvh, .amc, .c3d, .trc, .csv, .npz, .pkl), a folder of them, a library made by ``onbeat moves
+        build``, or the name of a set that ``onbeat moves fetch`` fetched. Without it the embedded troupe dances.
     output
         Folder for dance.bvh, dance.glb, dance.html, dance.json and song.json.
     seconds
@@ -87,6 +85,8 @@ def dance_command(
         Follow the beat alone, not the music's intensity.
     fps
         Frames per second of the dance; by default those of the moves.
+    source_fps
+        Frames a second of motion files that store none (AMC, a robot's CSV); all of --moves are read at it.
     warp
         Move stops onto the beats by a small time warp.
     mirror
@@ -100,32 +100,32 @@ def dance_command(
     wished
         What to dance, what not, and what to keep of an earlier dance.
     """
+    refuse_swapped(song, moves, "onbeat dance {song} --moves {motion}")
     _check(seconds, start, seed, fps)
+    _check_source_rate(source_fps, moves)
     _check_output(output)
     wishes = wished.wishes()
     film = video.film()
     song_file = None if song is None else song_path(song)
     clips = None if moves is None else moves_path(moves)
     if clips is not None and not clips.exists():
-        raise LibraryError(f"no file or folder {moves}; give a folder of BVH, ASF/AMC or npz motion to --moves")
-    with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
-        heard, sound = _hear(song_file, start, seconds, seed, flags.corrections(), stages)
-        library = _library(clips, mirror, stages)
+        raise LibraryError(f"no file or folder {moves}; give a folder of motion files (BVH, AMC, C3D …) to --moves")
+    with warnings_as_lines(), threadpool_limits(1, "blas"), Stages(PARTS) as stages:  # bits do not depend on threads
+        heard, sound = hear(song_file, start, seconds, seed, flags.corrections(), stages)
+        library = _library(clips, mirror, source_fps, stages)
         dance = make_dance(
             heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, wishes=wishes,
             step=stages,
         )  # fmt: skip
         with _staged(output) as folder:
             _write(folder, dance, library, sound, film, stages)
-    _tell_left_out(library)
+    tell_left_out(library)
+    tell_remarks(dance, library, output)
     if json:
         print(dance.document.to_json().decode(), end="")  # noqa: T201
         return
-    screen = Console()
-    screen.print(_table(dance, output))
-    page = output / "dance.html"
-    after = Text(f"Look at it: open {page}\nThen try: {_next(song, moves, film is not None)}")
-    screen.print(after, soft_wrap=True)
+    words = next_command(sys.argv[1:], song is not None, moves is not None, film is not None)
+    tell_made(dance, output, words)
 
 
 def _check(seconds: float | None, start: float, seed: int, fps: float | None) -> None:
@@ -137,6 +137,20 @@ def _check(seconds: float | None, start: float, seed: int, fps: float | None) ->
         raise PlanError(f"--seed {seed}: give a whole number from 0 to 2^63 - 1")
     if fps is not None and not FPS[0] <= fps <= FPS[1]:
         raise PlanError(f"--fps {fps:g}: give a rate from {FPS[0]:g} to {FPS[1]:g} frames a second")
+
+
+def _check_source_rate(rate: float | None, moves: Path | None) -> None:
+    """Refuse a rate that cannot be, or of no files that are read now."""
+    from onbeat.moves.store import is_library
+
+    if rate is None:
+        return
+    if not RATES[0] <= rate <= RATES[1]:
+        raise PlanError(f"--source-fps {rate:g}: give a rate from {RATES[0]:g} to {RATES[1]:g} frames a second")
+    if moves is None:
+        raise PlanError("--source-fps: it is the rate of the files of --moves; give them, too")
+    if is_library(moves):
+        raise LibraryError(f"--source-fps: {moves} is built already; build it again, `onbeat moves build` takes it")
 
 
 def _check_output(output: Path) -> None:
@@ -151,65 +165,7 @@ def _check_output(output: Path) -> None:
         raise OnbeatError(f"cannot write into {output}: no right to write in {there}; choose another folder with -o")
 
 
-def _tell_left_out(library: MoveLibrary) -> None:
-    """What is not in the library and what was assumed, a line each on stderr, of many the first."""
-    lines = [*library.notes, *(f"left out {problem}" for problem in library.problems)]
-    more = len(lines) - TOLD
-    if more > 1:
-        lines[TOLD:] = [f"… and {more} more; `onbeat moves build` tells all"]
-    for line in lines:
-        print(f"onbeat: {line}", file=sys.stderr)  # noqa: T201
-
-
-def _hear(
-    song: Path | None, start: float, seconds: float | None, seed: int, fixes: Corrections, stages: Stages
-) -> tuple[Song, Sound]:
-    """The song as heard and its sound, both from ``start`` on."""
-    from onbeat.music.audio import audio_duration, read_stereo
-    from onbeat.music.listen import listen
-
-    if song is None:
-        return _hear_embedded(start, seconds, seed, fixes, stages)
-    stages("listening", 0.0)
-    length = audio_duration(song)
-    if start >= length:
-        raise PlanError(f"--start {start:g}: {song} lasts {length:.1f} s")
-    wanted = min(seconds or length, length - start)
-    if wanted > LONGEST:
-        raise PlanError(
-            f"{song} lasts {length / 60:.0f} minutes; a dance lasts at most {LONGEST / 60:.0f}: "
-            "choose a stretch with --start and --seconds"
-        )
-    heard = listen(
-        song, start=start, seconds=wanted, progress=lambda s: stages("listening", s / wanted), corrections=fixes
-    )
-    return heard, read_stereo(song, start, wanted, highest=SOUND)
-
-
-def _hear_embedded(
-    start: float, seconds: float | None, seed: int, fixes: Corrections, stages: Stages
-) -> tuple[Song, Sound]:
-    import numpy as np
-    import soxr
-
-    from onbeat.examples import embedded_song
-    from onbeat.music.audio import RATE, Audio
-    from onbeat.music.listen import listen_samples
-
-    length = max(EMBEDDED, start + (seconds or 0.0))
-    if (seconds is None and start >= EMBEDDED) or length > LONGEST:
-        longest = EMBEDDED if seconds is None else LONGEST
-        raise PlanError(f"--start {start:g}: the embedded song lasts {longest:g} s; begin earlier")
-    stages("composing", 0.0)
-    _, samples, rate = embedded_song(length, seed)
-    samples = samples[round(start * rate) :]
-    samples = samples if seconds is None else samples[: round(seconds * rate)]
-    stages("listening", 0.0)
-    mono = np.asarray(soxr.resample(samples.mean(axis=1), rate, RATE), np.float32)
-    return listen_samples(Audio(mono, RATE), title="the embedded song", corrections=fixes), (samples, rate)
-
-
-def _library(moves: Path | None, mirror: bool, stages: Stages) -> MoveLibrary:
+def _library(moves: Path | None, mirror: bool, fps: float | None, stages: Stages) -> MoveLibrary:
     from onbeat.moves.cache import build_or_open
     from onbeat.moves.embedded import embedded_library
 
@@ -218,7 +174,7 @@ def _library(moves: Path | None, mirror: bool, stages: Stages) -> MoveLibrary:
 
     if moves is None:
         return embedded_library(mirror=mirror, step=step)
-    return build_or_open(moves, mirror=mirror, step=step)
+    return build_or_open(moves, mirror=mirror, fps=fps, step=step)
 
 
 @contextlib.contextmanager
@@ -283,50 +239,3 @@ def _keyposes(dance: Dance) -> Keyposes | None:
         return find_keyposes(dance.motion, dance.song.beats)
     except OnbeatError:
         return None
-
-
-def _table(dance: Dance, output: Path) -> Table:
-    metrics = dance.document.metrics
-    source = metrics["feet"]["skate_source"]
-    mirrored = metrics["variety"]["repeated_s_strict"] - metrics["variety"]["repeated_s"]
-    before, after, variety = metrics["beats_before_warp"], metrics["beats"], metrics["variety"]
-    song = dance.song
-    table = Table(title=Text(f"{song.title}: {song.duration:.1f} s at {song.tempo:.0f} BPM → {output}"))
-    table.add_column("figure")
-    table.add_column("value", justify="right")
-    table.add_column("what it says")
-    rows = (
-        (
-            "on the beat, ±50 ms",
-            after["f50"],
-            ".2f",
-            f"F-measure of stops and beats; {before['f50']:.2f} before the warp",
-        ),
-        ("on the beat, ±100 ms", after["f100"], ".2f", f"{before['f100']:.2f} before the warp"),
-        ("against chance", after["f50_jitter_z"], ".1f", "standard deviations above beats shifted at random"),
-        ("with the intensity", metrics["intensity"]["intensity_pearson"], ".2f", "correlation of hands and music"),
-        ("joins a minute", variety["joins_per_minute"], ".0f", "from one clip to another"),
-        ("feet at joins", metrics["feet"]["skate_joins"], ".3f", f"m/s of planted feet; {_of(source)} in the clips"),
-        (
-            "shown twice",
-            variety["repeated_s"],
-            ".1f",
-            f"seconds of clips seen again; {mirrored:.1f} more as mirror images",
-        ),
-    )
-    for name, value, digits, meaning in rows:
-        table.add_row(name, "–" if value is None else format(value, digits), meaning)
-    return table
-
-
-def _of(value: float | None) -> str:
-    return "–" if value is None else f"{value:.3f}"
-
-
-def _next(song: Path | None, moves: Path | None, video: bool) -> str:
-    if song is None:
-        return "onbeat dance YOUR_SONG.mp3"
-    name = shlex.quote(str(song))
-    if moves is None:
-        return f"onbeat dance {name} --moves YOUR_CLIPS/"
-    return f"onbeat dance {name} --moves {shlex.quote(str(moves))}" + (" --rhythm-only" if video else " --video")

@@ -8,26 +8,20 @@ from typing import Annotated, Any
 
 import cyclopts
 import msgspec
-import numpy as np
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from onbeat.cli.progress import warnings_as_lines
+from onbeat.cli.source_rate import SourceRate
+from onbeat.cli.swapped import refuse_swapped
 from onbeat.errors import MetricError, OnbeatError
 from onbeat.formats import read_motion
-from onbeat.metrics import beats, feet, intensity, smoothness
-from onbeat.motion import Motion
-from onbeat.motion.contacts import foot_contacts
-from onbeat.motion.features import hand_features
+from onbeat.metrics.evaluate import Scores, evaluate_motion
 from onbeat.music import Song, listen
-from onbeat.music.tempo import danceable_beats
+from onbeat.music.tempo import danceable_beats, fold_of
 
 VERSION = 1
-NO_JOINS = np.zeros(0)
-_PLANNED = ("_joins", "_source", "_ratio")  # names of what only the plan of a dance can tell
-
-Scores = dict[str, float | None]
 
 
 def _song(path: Path) -> Song:
@@ -39,36 +33,6 @@ def _song(path: Path) -> Song:
         return Song.from_json(path.read_bytes(), str(path))
     except OSError as error:
         raise OnbeatError(f"cannot read {path}: {error.strerror}; give a song or what `onbeat listen` wrote") from None
-
-
-def _unplanned(scores: Scores) -> Scores:
-    """The scores that need no plan; without joins, ``elsewhere`` is all of the motion."""
-    kept = {name: value for name, value in scores.items() if not any(part in name for part in _PLANNED)}
-    return {name.replace("_elsewhere", ""): value for name, value in kept.items()}
-
-
-def evaluate_motion(motion: Motion, song: Song, seed: int = 0) -> dict[str, Scores]:
-    """All scores of a motion that begins with the song, over the time both last, by the module that gives them.
-
-    Beats too fast or slow to dance to are halved or doubled as the planner of dances does.
-    """
-    duration = min(motion.duration, song.duration)
-    if duration <= 0:
-        raise MetricError("the motion begins after the song has ended; choose an earlier --start")
-    heard = danceable_beats(song).cut(0.0, duration)
-    features = hand_features(motion)
-    rng = np.random.default_rng(seed)
-    scores: dict[str, Scores] = {
-        "beats": beats.evaluate(features.body_stops, heard.beats, duration, rng, heard.downbeats),
-        "intensity": intensity.evaluate_dance(features, heard, duration),
-        "feet": _unplanned(feet.evaluate(motion, foot_contacts(motion).feet, NO_JOINS)),
-        "smoothness": _unplanned(smoothness.evaluate(motion, NO_JOINS)),
-    }
-    return {module: {name: _rounded(value) for name, value in found.items()} for module, found in scores.items()}
-
-
-def _rounded(value: float | None) -> float | None:
-    return round(value, 6) if isinstance(value, float) else value
 
 
 _ROWS = (
@@ -112,7 +76,7 @@ def evaluate_command(
     *,
     music: Path,
     start: float = 0.0,
-    fps: float | None = None,
+    fps: SourceRate = None,
     seed: int = 0,
     json: Annotated[bool, cyclopts.Parameter(negative=())] = False,
 ) -> None:
@@ -121,19 +85,20 @@ def evaluate_command(
     Parameters
     ----------
     motion
-        A motion file (.bvh, .amc, .npz).
+        A motion file of any kind that is read (.bvh, .amc, .c3d, .trc, .csv, .npz, .pkl).
     music
         A song, or the ``song.json`` that ``onbeat listen`` wrote.
     start
         The second of the song at which the motion begins.
     fps
-        Frames per second, where the motion file stores none.
+        Frames a second of the motion file, where it stores none.
     seed
         Draws the chance levels: what the same stops score on beats moved by up to half an interval (F), or moved as a
         whole by any time (beat-align); z is how many standard deviations a score is above its chance.
     json
         Print everything as JSON on stdout instead of a table.
     """
+    refuse_swapped(music, motion, "onbeat evaluate {motion} --music {song}")
     if not start >= 0:
         raise MetricError(f"--start is {start:g} s; give a second of the song, 0 or later")
     with warnings_as_lines():
@@ -144,5 +109,8 @@ def evaluate_command(
         sys.stdout.write(msgspec.json.format(msgspec.json.encode(document), indent=2).decode() + "\n")
         return
     found = scores["beats"]
-    Console(stderr=True).print(f"{motion.name} on {music.name}: {found['stops']} stops, {found['beats']} beats")
+    fold = fold_of(song.tempo, danceable_beats(song).tempo)
+    folded = f", {fold} of those heard" if fold else ""
+    told = f"{motion.name} on {music.name}: {found['stops']} stops, {found['beats']} beats{folded}"
+    Console(stderr=True).print(Text(told), soft_wrap=True)
     Console().print(_table(scores))

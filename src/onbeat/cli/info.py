@@ -15,6 +15,7 @@ from rich.text import Text
 
 from onbeat.capture.template import marker_template
 from onbeat.cli.progress import warnings_as_lines
+from onbeat.cli.source_rate import SourceRate
 from onbeat.formats import read_file
 from onbeat.formats.conventions import Up
 from onbeat.formats.report import FileReport, describe
@@ -26,7 +27,7 @@ def info_command(
     file: Path,
     /,
     *,
-    fps: Annotated[float | None, cyclopts.Parameter(name=["--fps", "--source-fps"])] = None,
+    fps: SourceRate = None,
     up: Annotated[Up | None, cyclopts.Parameter(name=["--up", "--source-up"])] = None,
     unit: Annotated[str | None, cyclopts.Parameter(name=["--unit", "--source-unit"])] = None,
     roles: Path | None = None,

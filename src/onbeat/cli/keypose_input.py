@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from onbeat._shapes import Times
+from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import MetricError, OnbeatError
 from onbeat.formats.read import read_file, read_motion
 from onbeat.keyposes.extract import Options, Reading
@@ -24,6 +25,7 @@ from onbeat.motion import Markers, Motion
 from onbeat.motion.role_file import roles_beside
 from onbeat.music import Song, listen
 from onbeat.music.beat_files import read_beats
+from onbeat.music.tempo import danceable_beats, fold_of
 
 MARKS = ".keyposes.csv"
 SOUNDS = (".wav", ".flac", ".ogg", ".mp3", ".m4a")
@@ -49,7 +51,7 @@ class BeatFlags:
     music: Path | None = None
     beats: Path | None = None
     song_at: float = 0.0
-    fps: float | None = None
+    fps: SourceRate = None
 
 
 NO_BEATS = BeatFlags()
@@ -102,9 +104,13 @@ def _source(path: Path, fps: float | None) -> Motion | Markers:
 
 @cache
 def _heard(music: Path) -> Song:
-    """The song, heard once for all motions."""
+    """The song, heard once for all motions; who may dance to other beats than are heard is told."""
     with Console(stderr=True).status(Text(f"hearing {music.name}")):
-        return listen(music)
+        song = listen(music)
+    if fold := fold_of(song.tempo, danceable_beats(song).tempo):
+        told = f"{song.tempo:.0f} BPM are heard in {music.name}; a dance that `onbeat dance` made is at {fold} of it"
+        print(f"onbeat: {told}: its beats are in the song.json beside it, for --beats", file=sys.stderr)  # noqa: T201
+    return song
 
 
 def read_example(path: Path, options: Options, song_at: float = 0.0, fps: float | None = None) -> Example:

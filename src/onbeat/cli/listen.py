@@ -22,6 +22,7 @@ from onbeat.files import write_atomically
 from onbeat.music import METHODS, Song, listen
 from onbeat.music.audio import RATE, audio_duration, native_blocks, read_blocks
 from onbeat.music.fixes import Corrections
+from onbeat.music.tempo import danceable_beats, fold_of
 
 DOCUMENTS = (".json", ".csv", ".jams")
 CLICKS = (".wav", ".flac", ".ogg")
@@ -49,7 +50,7 @@ def _table(song: Song) -> Table:
     for name, value in (
         ("song", song.title),
         ("duration", f"{song.duration:.2f} s"),
-        ("tempo", f"{song.tempo:.2f} BPM{_wander(song)}" if song.tempo else "no beat heard"),
+        ("tempo", f"{song.tempo:.2f} BPM{_wander(song)}{_folded(song)}" if song.tempo else "no beat heard"),
         ("meter", f"{song.meter} beats a bar"),
         ("beats", str(len(song.beats))),
         ("downbeats", f"{len(song.downbeats)}{first}"),
@@ -86,6 +87,13 @@ def _sureness(song: Song) -> str:
         return ""
     usual = float(np.median(song.confidence))
     return f"{usual:.2f}" + (" (unsure: listen with --click)" if usual < UNSURE else "")
+
+
+def _folded(song: Song) -> str:
+    """A remark on a tempo that is not danced to as it is."""
+    danced = danceable_beats(song).tempo
+    fold = fold_of(song.tempo, danced)
+    return f", danced to at {fold} of it ({danced:.0f})" if fold else ""
 
 
 def _wander(song: Song) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json as json_module
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import cyclopts
 from onbeat.cli.live_flags import NO_BODY, NO_HEAR, NO_SEND, BodyFlags, Flag, HearFlags, SendFlags
 from onbeat.cli.live_show import Show
 from onbeat.cli.progress import warnings_as_lines
+from onbeat.cli.swapped import looks_like_sound
 from onbeat.errors import OnbeatError
 
 PACES = (0.1, 100.0)
@@ -99,6 +101,9 @@ def _check(
     seconds: float | None,
     speed_up: float,
 ) -> None:
+    for path in motions:
+        if looks_like_sound(path):
+            raise OnbeatError(f"{path} is a song, no choreography; give `onbeat live --input {shlex.quote(str(path))}`")
     if seconds is not None and not 0 < seconds < float("inf"):
         raise OnbeatError(f"--seconds {seconds:g}: give more than 0")
     if not PACES[0] <= speed_up <= PACES[1]:

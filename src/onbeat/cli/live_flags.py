@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 import cyclopts
 
+from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import OnbeatError
 from onbeat.music.tempo import FASTEST, SLOWEST
 
@@ -92,7 +93,7 @@ class BodyFlags:
     simulate: Flag = False
     beats: Path | None = None
     song_at: float = 0.0
-    fps: float | None = None
+    fps: SourceRate = None
 
 
 @cyclopts.Parameter(name="*")

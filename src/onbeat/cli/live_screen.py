@@ -89,9 +89,19 @@ def summary(ran: Ran, passed: Sequence[Passed], poses: int, speed_up: float) -> 
 def words(told: dict[str, Any]) -> str:
     """The same in a line."""
     silent = f", {told['without_sound'] / 100:.1f} s of it without sound" if told["without_sound"] else ""
-    mouths = "".join(
-        f"; {one['name']}: {one['sent']} poses"
-        + (f", {one['punctual']:.2%} within 10 ms" if one.get("sent") and "punctual" in one else "")
-        for one in told["mouths"]
-    )
+    mouths = "".join(f"; {one['name']}: {one['sent']} poses{_punctual(one)}" for one in told["mouths"])
     return f"{told['ticks'] / 100:.1f} s heard{silent}, {told['cpu']:.0%} of one processor{mouths}"
+
+
+PUNCTUAL = 0.95
+"""The share of poses in time under which a dance is seen to stutter."""
+
+
+def _punctual(mouth: dict[str, Any]) -> str:
+    """How many poses were sent when they were due, and what it means if they were few."""
+    if not (mouth["sent"] and "punctual" in mouth):
+        return ""
+    told = f", {mouth['punctual']:.1%} of them sent within 10 ms of when they were due"
+    if mouth["punctual"] >= PUNCTUAL:
+        return told
+    return f"{told}: too few (95% are needed), so that it stutters; this computer had too much else to do"

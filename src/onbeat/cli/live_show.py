@@ -52,6 +52,7 @@ class Show:
     def live(self, motions: tuple[Path, ...], hear: HearFlags, body: BodyFlags, record: Path | None) -> dict[str, Any]:
         """Hear, and dance."""
         settings = Settings.of(motions, hear, body)
+        self._ready()
         recording = None if record is None else Recording(record, msgspec.to_builtins(settings))
         with _kept(recording):
             cast = self._cast(settings)
@@ -72,6 +73,11 @@ class Show:
         if not self._quiet:
             Screen.say(f"{told['poses']} poses, {_compared(told['same'], replay.kept.poses, settings)}")
         return told
+
+    def _ready(self) -> None:
+        """Say that all is made ready: that takes seconds, on a busy computer half a minute."""
+        if not self._quiet:
+            Screen.say("getting ready: who dances, and what is heard")
 
     def _cast(self, settings: Settings) -> Cast:
         with Stages() as stages:

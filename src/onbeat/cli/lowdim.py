@@ -6,7 +6,7 @@ import itertools
 import os
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import cyclopts
 import msgspec
@@ -18,6 +18,8 @@ from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Times
 from onbeat.cli.keypose_input import MARKS, NO_BEATS, BeatFlags, read_dance
+from onbeat.cli.lowdim_pulses import tell_unlike_pulses
+from onbeat.cli.observe_input import beside
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.errors import MetricError
 from onbeat.files import make_folder, write_atomically
@@ -51,6 +53,8 @@ def lowdim_command(
 ) -> None:
     """Rebuild dances in a few dimensions, those of their keyposes, and compare with uniform sampling.
 
+    Example: ``onbeat lowdim aiko.bvh bruno.bvh carla.bvh --in-cycle 8 --music song.mp3 -o lowdim``
+
     Parameters
     ----------
     motions
@@ -63,7 +67,8 @@ def lowdim_command(
     in_cycle
         Keyposes in a cycle of the dance: the cycle in the middle teaches, the others test. Without it, half of them do.
     flags
-        Where the beats come from.
+        Where the beats come from, if all have the same; without it from ``NAME.beats`` or a song beside each, else from
+        the motions themselves.
     output
         A folder for the motions in both spaces, ``lowdim.json``, the figures, and the page ``judge.html`` on which
         people choose.
@@ -92,10 +97,12 @@ def lowdim_command(
     _refuse_twice(motions)
     with warnings_as_lines(), threadpool_limits(1, "blas"), Stages() as stages:  # bits do not depend on threads
         read = [_read(path, flags, stages, done / len(motions)) for done, path in enumerate(motions)]
+        tell_unlike_pulses([path.name for path in motions], [one.own for one in read])
         stages("spaces", 0.0)
         found = low_dimensional(
-            [one[0] for one in read], [one[1] for one in read], _names(motions), dims=dims, rho=rho, cycle=in_cycle
-        )
+            [one.motion for one in read], [one.keyposes for one in read], _names(motions), dims=dims, rho=rho,
+            cycle=in_cycle,
+        )  # fmt: skip
         told = document(found)
         if output is not None:
             _write(make_folder(output), found, told, stages, (seed, repeats))
@@ -124,15 +131,25 @@ def _names(paths: list[Path]) -> list[str]:
     return names
 
 
-def _read(path: Path, flags: BeatFlags, stages: Stages, share: float) -> tuple[Motion, Times]:
+class _Read(NamedTuple):
+    """A motion, its keyposes, and the tempo of its own pulse where they were found by that."""
+
+    motion: Motion
+    keyposes: Times
+    own: float | None = None
+
+
+def _read(path: Path, flags: BeatFlags, stages: Stages, share: float) -> _Read:
     """A motion and its keyposes, marked or found."""
     stages("reading", share, path.name)
     marks = path.with_name(path.stem + MARKS)
     if marks.is_file():
-        return read_motion(path, flags.fps), read_beats(marks).times
-    source, beats, _ = read_dance(path, flags)
-    keyposes = find_keyposes(source, beats).times
-    return fitted(source, path).motion if isinstance(source, Markers) else source, keyposes
+        return _Read(read_motion(path, flags.fps), read_beats(marks).times)
+    used = flags if flags.music or flags.beats else beside(path, flags)
+    source, beats, _ = read_dance(path, used)
+    own = None if used.music or used.beats else 60.0 / float(np.median(np.diff(beats)))
+    motion = fitted(source, path).motion if isinstance(source, Markers) else source
+    return _Read(motion, find_keyposes(source, beats).times, own)
 
 
 def _write(folder: Path, found: LowDimensional, told: LowdimDocument, stages: Stages, drawn: tuple[int, int]) -> None:

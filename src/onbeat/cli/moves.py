@@ -11,6 +11,7 @@ import cyclopts
 from onbeat.cli.fetching import moves_path
 from onbeat.cli.moves_show import print_library, tell_problems
 from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import LibraryError
 
 moves_app = cyclopts.App(name="moves", help="Build, show, check and change motion libraries: clips and their joins.")
@@ -52,7 +53,7 @@ def build_command(
     *,
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])],
     mirror: bool = True,
-    fps: float | None = None,
+    fps: SourceRate = None,
     about: Path | None = None,
     search: Literal["exact", "coarse", "approximate"] | None = None,
     workers: int | None = None,
@@ -68,13 +69,14 @@ def build_command(
     Parameters
     ----------
     paths
-        Motion files (.bvh, .amc, .npz), folders of them, and names of sets that ``onbeat moves fetch`` fetched.
+        Motion files (.bvh, .amc, .c3d, .trc, .csv, .npz, .pkl), folders of them, and names of sets that ``onbeat moves
+        fetch`` fetched.
     output
         The library's folder.
     mirror
         Follow each clip by its mirror image.
     fps
-        Frames per second of files that store none (AMC).
+        Frames per second of files that store none (AMC, a robot's CSV); all files are read at it.
     about
         A table (CSV) with the columns file, performer, genre, licence; file may be a pattern such as S01/*.
     search

@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from onbeat.cli.keypose_input import NO_BEATS, BeatFlags
 from onbeat.cli.observe_input import Dance, chosen_joints, embedded, in_repetition, read_takes
+from onbeat.cli.observe_likeness import tell_unlike
 from onbeat.cli.observe_score import all_valleys, valley_score
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.errors import MetricError
@@ -91,6 +92,7 @@ def observe_command(
             known = in_repetition(dance.keyposes, every.first, float(every.beats[-1]), every.period)
         scores = [valley_score(found, common, known, rng)] if known is not None and len(known) else []
         document = observe_document(found, energies, each, common, drawn, scores)
+        tell_unlike([take.label for take in dance.takes], every, document.likeness)
         if output is not None:
             from onbeat.viewer.observe_figures import write_observe_figures
 
@@ -136,6 +138,10 @@ def _print(dance: Dance, found: Observation, energies: Attenuation, document: Ob
     length = f"{found.repetitions.beats[-1]:g} beats"
     joints = len(found.repetitions.joints)
     screen.print(Text(f"{dance.title}: {kind} of {length}, {counts}; {joints} joints"))
+    if document.likeness and document.likeness_shifted:
+        shifted = "{:z.2f} ± {:.2f}".format(*document.likeness_shifted)
+        told = f"{np.mean(document.likeness):z.2f}, at least {min(document.likeness):z.2f}"
+        screen.print(Text(f"likeness of the {kind}: {told}; shifted by whole beats {shifted}"))
     screen.print(_layers(energies, document))
     screen.print(Text(_valleys(document)))
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
+from itertools import accumulate, pairwise
 from types import TracebackType
 
 from rich.console import Console
@@ -27,9 +28,19 @@ class Stages:
     """A line of progress for each stage of a job, as it is reached, where stderr is a screen.
 
     Called with a stage's name and its share done, 0…1; naming a new stage ends the one before.
+
+    Parameters
+    ----------
+    parts : how long the stages last against each other, in their order; where told, a line says how far all of the job
+        is and how long it will take.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, parts: Mapping[str, float] | None = None) -> None:
+        edges = list(accumulate((parts or {}).values(), initial=0.0))
+        whole = max(edges[-1], 1e-9)
+        spans = zip(parts or {}, pairwise(edges), strict=True)
+        self._spans = {name: (low / whole, high / whole) for name, (low, high) in spans}
+        self._all: TaskID | None = None
         screen = Console(stderr=True)
         self._progress = Progress(
             TextColumn("{task.description:<10}"),
@@ -54,15 +65,26 @@ class Stages:
         """End the last stage, if all went well."""
         if kind is None:
             self._finish()
+            if self._all is not None:
+                self._progress.update(self._all, completed=1.0)
         self._progress.stop()
 
     def __call__(self, stage: str, share: float, detail: str = "") -> None:
         """Say that ``share`` of ``stage`` is done, and what of it is done now."""
         if stage != self._name:
             self._finish()
+            if self._spans and self._all is None:
+                self._all = self._progress.add_task("in all", total=1.0, detail="")
             self._task, self._name = self._progress.add_task(stage, total=1.0, detail=""), stage
         if self._task is not None:
-            self._progress.update(self._task, completed=min(max(share, 0.0), 1.0), detail=detail)
+            share = min(max(share, 0.0), 1.0)
+            self._progress.update(self._task, completed=share, detail=detail)
+            self._tell_all(stage, share)
+
+    def _tell_all(self, stage: str, share: float) -> None:
+        if self._all is not None and stage in self._spans:
+            begin, end = self._spans[stage]
+            self._progress.update(self._all, completed=begin + (end - begin) * share)
 
     def _finish(self) -> None:
         if self._task is not None:

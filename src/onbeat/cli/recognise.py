@@ -9,7 +9,18 @@ import cyclopts
 from onbeat.cli.keypose_input import NO_BEATS, BeatFlags
 from onbeat.cli.progress import warnings_as_lines
 from onbeat.cli.recognise_input import Cut, read_segments
-from onbeat.cli.recognise_output import VERSION, Flag, Paths, print_json, print_table, row_of, told
+from onbeat.cli.recognise_output import (
+    FACTORS,
+    VERSION,
+    Flag,
+    Paths,
+    print_json,
+    print_table,
+    row_of,
+    tell_guesses,
+    told,
+)
+from onbeat.cli.swapped import refuse_swapped_model
 from onbeat.errors import OnbeatError
 from onbeat.recognition.model_file import load_recogniser
 
@@ -46,6 +57,7 @@ def predict_command(
     json
         Print all matches as JSON on stdout instead of a table.
     """
+    refuse_swapped_model(model, probes)
     cut = Cut(span).checked()
     recogniser = load_recogniser(model)
     if stream:
@@ -66,18 +78,36 @@ def predict_command(
         return
     rows = [
         (Path(probe.file).name, f"{probe.start:.2f}", f"{probe.end:.2f}",
-         told(one.task_scores, one.task_known), told(one.person_scores, one.person_known))
+         *(told(one, factor) for factor in FACTORS))
         for probe, one in pairs
     ]  # fmt: skip
     print_table(("file", "from", "to", "task", "person"), rows, ("from", "to"))
+    tell_guesses(recogniser, predictions)
 
 
 # Named by path, so that each is imported when it is called; their help stands here, so that a list needs none.
 _COMMANDS = {
-    "train": ("train_command", "Learn tasks and persons from labelled stretches of motion files."),
-    "evaluate": ("evaluate_command", "Measure a model on labelled segments that it has not learned from."),
-    "pupil": ("pupil_command", "Measure how far a pupil is from a master, by parts of the body."),
-    "style": ("style_command", "Make a motion of a step as another person dances it, or would."),
+    "train": (
+        "train_command",
+        "Learn tasks and persons from labelled stretches of motion files.",
+        "onbeat recognise train labels.csv -o model.npz",
+    ),
+    "evaluate": (
+        "evaluate_command",
+        "Measure a model on labelled segments that it has not learned from.",
+        "onbeat recognise evaluate model.npz other_labels.csv -o confusion",
+    ),
+    "pupil": (
+        "pupil_command",
+        "Measure how far a pupil is from a master, by parts of the body.",
+        "onbeat recognise pupil master.bvh pupil.bvh -o lesson",
+    ),
+    "style": (
+        "style_command",
+        "Make a motion of a step as another person dances it, or would.",
+        "onbeat recognise style labels.csv --task bow --person Aiko -o bow_by_aiko.bvh",
+    ),
 }
-for _order, (_name, (_function, _help)) in enumerate(_COMMANDS.items()):
+for _order, (_name, (_function, _sentence, _example)) in enumerate(_COMMANDS.items()):
+    _help = f"{_sentence}\n\nExample: ``{_example}``"
     recognise_app.command(f"onbeat.cli.recognise_{_name}:{_function}", name=_name, help=_help, sort_key=_order)

@@ -9,7 +9,17 @@ from typing import Any
 from onbeat.cli.keypose_input import NO_BEATS, BeatFlags
 from onbeat.cli.progress import warnings_as_lines
 from onbeat.cli.recognise_input import Cut, Probe, read_segments
-from onbeat.cli.recognise_output import VERSION, Flag, Folder, Paths, made_folder, print_json, print_table
+from onbeat.cli.recognise_output import (
+    FACTORS,
+    VERSION,
+    Factor,
+    Flag,
+    Folder,
+    Paths,
+    made_folder,
+    print_json,
+    print_table,
+)
 from onbeat.errors import OnbeatError
 from onbeat.recognition.model_file import load_recogniser
 from onbeat.recognition.recogniser import Expert, Prediction
@@ -54,7 +64,7 @@ def evaluate_command(
     if not any(probe.task or probe.person for probe in probes):
         raise OnbeatError(f"no task and no person in {', '.join(map(str, labels))}; label what is to be held against")
     document: dict[str, Any] = {"version": VERSION}
-    for factor, expert in (("task", recogniser.task), ("person", recogniser.person)):
+    for factor, expert in zip(FACTORS, (recogniser.task, recogniser.person), strict=True):
         if expert is None:
             continue
         document[factor] = scored = _scored(factor, expert, probes, predictions)
@@ -67,9 +77,11 @@ def evaluate_command(
         print_json(document)
 
 
-def _scored(factor: str, expert: Expert, probes: Sequence[Probe], predictions: Sequence[Prediction]) -> dict[str, Any]:
+def _scored(
+    factor: Factor, expert: Expert, probes: Sequence[Probe], predictions: Sequence[Prediction]
+) -> dict[str, Any]:
     pairs = [
-        (getattr(probe, factor), getattr(one, factor) if getattr(one, f"{factor}_known") else "new")
+        (getattr(probe, factor), one.said(factor) or "new")
         for probe, one in zip(probes, predictions, strict=True)
         if getattr(probe, factor)
     ]

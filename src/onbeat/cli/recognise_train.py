@@ -43,8 +43,9 @@ def train_command(
     output
         The model's file.
     across
-        Known may be as far away as a known task by a new person, or a known person in a new task; without it as
-        another repetition by the same.
+        Call known what is as near as a known task by a new person, or a known person in a new task. Without it known
+        is what is as near as another repetition by the same; what is farther, yet as near as with this flag, is told as
+        "perhaps".
     mirrored
         ``apart`` (the default): a step and its mirror image are two. ``joined``: they are one; the model then turns
         all that it is shown to lead with the right side. Names stay as they are: label both sides alike.
@@ -64,10 +65,22 @@ def train_command(
         _, segments = read_segments(labels, flags, Cut(span, cycle=cycle, usual=True))
     with Console(stderr=True).status(Text(f"learning from {len(segments)} segments")):
         kind = JoinedSides if mirrored == "joined" else Recogniser
-        recogniser = kind.train(segments, np.random.default_rng(seed), across=across)
+        recogniser = kind.train(segments, np.random.default_rng(seed), across=across, newcomers=True)
     save_recogniser(recogniser, output)
     counts = [len(expert.names) if expert else 0 for expert in (recogniser.task, recogniser.person)]
     told = [f"{n} {name}{'' if n == 1 else 's'}" for n, name in zip(counts, ("task", "person"), strict=True)]
     of = f"{len(segments)} segment{'' if len(segments) == 1 else 's'}"
     sides = ", left and right joined" if mirrored == "joined" else ""
-    screen().print(Text(f"{output}: {told[0]} and {told[1]} from {of}{sides}"))
+    screen().print(Text(f"{output}: {told[0]} and {told[1]} from {of}{sides}; {_newcomers(recogniser, across)}"))
+
+
+def _newcomers(recogniser: Recogniser, across: bool) -> str:
+    """What the model will say of a known task by somebody new."""
+    if not recogniser.task:
+        return "without tasks only persons are told"
+    if across:
+        return "a known task by somebody new is called known, and many a new one, too"
+    if not recogniser.across.task:
+        return "a known task by somebody new is called new (to have it told teach 3 tasks or more, by several people)"
+    right = recogniser.across.task.choice.accuracy
+    return f"a known task by somebody new is called perhaps known ({right:.0%} of them by the right name, tried here)"

@@ -13,12 +13,14 @@ from rich.table import Table
 from rich.text import Text
 
 from onbeat.cli.progress import Stages, warnings_as_lines
+from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import OnbeatError
 from onbeat.reproduce.data import Data
 from onbeat.reproduce.document import results_document
 from onbeat.reproduce.paper import chosen
+from onbeat.reproduce.place import place_for
 from onbeat.reproduce.result import PaperResult, tally
-from onbeat.reproduce.run import COSTS, place_for, reproduce, write_results
+from onbeat.reproduce.run import COSTS, names_for, reproduce, write_results
 
 reproduce_app = cyclopts.App(name="reproduce", help="Do the papers' experiments again, beside what they print.")
 reproduce_app.command(
@@ -44,7 +46,7 @@ def reproduce_command(
     output: Annotated[Path, cyclopts.Parameter(name=["-o", "--output"])] = Path("reproduced"),
     motions: Files = None,
     songs: Files = None,
-    fps: float | None = None,
+    fps: SourceRate = None,
     quick: Flag = False,
     seed: int = 0,
     json: Flag = False,
@@ -62,8 +64,8 @@ def reproduce_command(
     motions
         Motion files and folders of them instead of the embedded troupe, for one paper. P1: clips of dances. P2: takes
         of one dance at several speeds, each with its beats, ``NAME.beats`` (a second a line) beside ``NAME.bvh``. P3:
-        takes of dances with their beats and, where known, their keyposes, ``NAME.keyposes.csv``; names like
-        ``task_person_1.bvh`` say who dances what.
+        takes of dances with their beats and, where known, their keyposes, ``NAME.keyposes.csv``; without either it
+        cannot be told what the paper says of keyposes. Names like ``task_person_1.bvh`` say who dances what.
     songs
         Audio files instead of the embedded songs, for P1; beats in ``NAME.beats`` beside ``NAME.mp3`` are taken as
         true.
@@ -79,8 +81,9 @@ def reproduce_command(
     if not 0 <= seed < 2**63:
         raise OnbeatError(f"--seed {seed}: give a whole number from 0 to 2^63 - 1")
     keys, data = chosen(papers or ()), Data(tuple(motions or ()), tuple(songs or ()), quick, seed, fps)
-    with warnings_as_lines(), place_for(output, keys), Stages() as stages:
-        results = reproduce(keys, data, _together(stages, keys), workers=WORKERS)
+    with warnings_as_lines(), place_for(output, names_for(keys)), Stages() as stages:
+        say = _together(stages, keys) if sys.stderr.isatty() else _in_lines()
+        results = reproduce(keys, data, say, workers=WORKERS)
         write_results(output, results, quick=quick, seed=seed)
     if json:
         sys.stdout.write(results_document(results, quick=quick, seed=seed).to_json().decode())
@@ -104,6 +107,19 @@ def _together(stages: Stages, keys: list[str]) -> Callable[[str, float, str], No
     return say
 
 
+def _in_lines() -> Callable[[str, float, str], None]:
+    """A line on stderr for each tenth of a paper that is begun, where it is no screen."""
+    begun: dict[str, int] = {}
+
+    def say(key: str, share: float, what: str) -> None:
+        tenth = int(10 * share + 1e-9)
+        if what and tenth > begun.get(key, -1):
+            begun[key] = tenth
+            print(f"onbeat: {key}, {10 * tenth} %: {what}", file=sys.stderr, flush=True)  # noqa: T201
+
+    return say
+
+
 def _table(result: PaperResult) -> Table:
     """What the paper says, and whether it holds here."""
     table = Table(title=Text(f"{result.key} {result.title}: {tally(result.claims)}"), title_justify="left")
@@ -112,5 +128,5 @@ def _table(result: PaperResult) -> Table:
     table.add_column("what comes out")
     words = {True: "yes", False: "no", None: "?"}
     for claim in result.claims:
-        table.add_row(words[claim.holds], Text(claim.said), Text(claim.found))
+        table.add_row(words[claim.holds], Text(claim.said), Text(claim.told))
     return table

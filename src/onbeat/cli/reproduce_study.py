@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from onbeat.cli.progress import warnings_as_lines
+from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import OnbeatError
 from onbeat.files import make_folder, write_atomically
 from onbeat.reproduce.data import Data
@@ -33,7 +34,7 @@ def study_command(
     motions: Annotated[
         list[Path] | None, cyclopts.Parameter(consume_multiple=True, negative=(), json_list=False)
     ] = None,
-    fps: float | None = None,
+    fps: SourceRate = None,
     sequences: int = SEQUENCES,
     seed: int = 0,
     host: str = "127.0.0.1",

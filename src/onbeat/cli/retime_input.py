@@ -20,6 +20,7 @@ from onbeat.limits.limits import Limits
 from onbeat.limits.named import robot_limits
 from onbeat.limits.read import read_limits
 from onbeat.retime.sources import Character, Robot, Source, Table, source_of
+from onbeat.robots.description_toml import described_robots
 
 MODELS = (".toml", ".urdf", ".xml", ".mjcf")
 STEADY = 0.5  # s; beats of a table of angles that has none: only the layers' knots are on them
@@ -71,7 +72,7 @@ def limits_for(source: Source, robot: str | None, paths: list[Path]) -> Limits:
     if robot and paths:
         raise OnbeatError(f"--robot {robot} and --limits {paths[0]}: give one of them")
     if robot:
-        return robot_limits(robot)
+        return _of_robot(robot, source)
     if paths and paths[0].suffix.lower() in MODELS:
         if len(paths) > 1:
             raise OnbeatError(f"{len(paths)} files of limits; one of them is needed: {paths[0]}")
@@ -82,6 +83,18 @@ def limits_for(source: Source, robot: str | None, paths: list[Path]) -> Limits:
     if isinstance(source, Robot) and not paths:
         return robot_limits("g1")
     raise OnbeatError("the limits of a robot are not learned from motions; give --robot NAME or --limits FILE.toml")
+
+
+def _of_robot(robot: str, source: Source) -> Limits:
+    """A robot's limits; a character that has none of its joints is no robot, and is told what is meant."""
+    limits = robot_limits(robot)
+    if not isinstance(source, Character) or not set(source.joints).isdisjoint(limits.joints):
+        return limits
+    known = ", ".join(described_robots())
+    raise OnbeatError(
+        f"{source.name} is a character's motion and has no joint of {limits.name}: `onbeat robot` puts it on a robot "
+        f"({known}), faster or to other music, too; without --robot the character keeps to its own speeds"
+    )
 
 
 def _motions(paths: list[Path]) -> list[Path]:

@@ -140,7 +140,7 @@ def _print(document: RobotDocument, met: Meeting | None) -> None:
         "robot": f"{document.robot}, {document.mass_kg:.1f} kg, feet {document.feet}",
         "speed": f"{document.speed:.3g} ×, {document.duration:.1f} s",
         "past limits": f"{kept.position} joints in position, {kept.velocity} in velocity (at 1 kHz)",
-        "balance": f"zero-moment point inside the soles {zmp.inside:.1%} of the time, {zmp.worst_mm:.0f} mm at least",
+        "balance": f"planned: zero-moment point {_inside(zmp.inside, zmp.worst_mm)}",
     }
     if met is not None:
         rows["beats"] = f"{len(met.dance)} of the dance on the music's"
@@ -150,6 +150,14 @@ def _print(document: RobotDocument, met: Meeting | None) -> None:
         rows["simulated"] = (
             f"{fell}; joints {tried.rms_deg:.1f}° off (rms), {tried.beats_met} of {tried.beats} beats met"
         )
+        if tried.inside is not None and tried.worst_mm is not None:
+            rows[""] = f"measured: centre of pressure {_inside(tried.inside, tried.worst_mm)}"
     for name, text in rows.items():
         table.add_row(Text(name), Text(text))
     screen.print(table)
+
+
+def _inside(share: float, least: float) -> str:
+    """How much of the time, and how far at the least; what is not always is not 100 %."""
+    told = f"{share:.0%}" if share == 1 else f"{min(share, 0.999):.1%}"
+    return f"inside the soles {told} of the time, {least:z.0f} mm at least"

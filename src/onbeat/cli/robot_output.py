@@ -28,15 +28,16 @@ from onbeat.robots.document import RobotDocument
 from onbeat.robots.hrpsys import write_hrpsys
 from onbeat.robots.leg_ik import Legs
 from onbeat.robots.mcap import write_mcap
+from onbeat.robots.measured import measured_margins, pressed_at
 from onbeat.robots.model import Robot
 from onbeat.robots.perform import Staged
-from onbeat.robots.polygon import Polygons
 from onbeat.robots.state import configurations
 from onbeat.robots.trial import Trial
 from onbeat.viewer.figure import Figure
 from onbeat.viewer.flashes import Flashes
+from onbeat.viewer.page import write_filled
 from onbeat.viewer.robot_figure import Measured, write_robot_figure
-from onbeat.viewer.robot_page import write_robot_page
+from onbeat.viewer.robot_page import robot_page_data
 from onbeat.viewer.robot_shape import ROBOT, robot_shape
 from onbeat.viewer.video import write_video
 
@@ -66,18 +67,12 @@ def write_robot(
     sound = None if music is None or song is None else _sound(music, staged)
     shown = staged.motion if trial is None else trial.motion
     dancer = dance.at(np.clip(staged.retimed.warp(staged.start + staged.motion.times), 0.0, dance.duration))
-    write_robot_page(
-        page,
-        dancer.replace(fps=staged.motion.fps),
-        shown,
-        None,
-        sound,
-        staged.beats - staged.start,
-        staged.retimed.measures.keyposes - staged.start,
-        source.stem,
-        model=robot,
-        fell_at=None if trial is None else trial.fell_at,
-    )
+    beats, keyposes = staged.beats - staged.start, staged.retimed.measures.keyposes - staged.start
+    told = robot_page_data(
+        dancer.replace(fps=staged.motion.fps), shown, audio=sound, beats=beats, keyposes=keyposes, title=source.stem,
+        model=robot, fell_at=None if trial is None else trial.fell_at,
+    )  # fmt: skip
+    write_filled(page, told)
     written += [report, drawn, page]
     if film:
         written.append(folder / "robot.mp4")
@@ -103,7 +98,7 @@ def _film(
     danced = Song(length, 0.0, 4, beats, downbeats, np.zeros(len(beats)), np.array([0.0, length]), none)
     write_video(
         path, dressed, danced, sound, fps=film.fps, size=film.size, figure=Figure.from_capsules(shape, ROBOT),
-        stops=staged.retimed.measures.keyposes - staged.start,
+        stops=staged.retimed.measures.keyposes - staged.start, marked="keyposes",
         flashes=Flashes.on(beats, downbeats) if film.flash else None,
         progress=lambda share: stages("video", share),
     )  # fmt: skip
@@ -131,9 +126,9 @@ def _exports(folder: Path, name: str, robot: Robot, staged: Staged) -> list[Path
 
 
 def _figure(path: Path, robot: Robot, staged: Staged, trial: Trial | None) -> None:
-    legs, motion = Legs.of(robot), staged.motion
-    corners = sole_corners(legs, configurations(robot, motion))[..., :2]
-    measured = None if trial is None else _measured(legs, robot, trial)
+    motion = staged.motion
+    corners = sole_corners(Legs.of(robot), configurations(robot, motion))[..., :2]
+    measured = None if trial is None else _measured(robot, trial)
     write_robot_figure(
         path,
         motion.times,
@@ -148,17 +143,12 @@ def _figure(path: Path, robot: Robot, staged: Staged, trial: Trial | None) -> No
     )
 
 
-def _measured(legs: Legs, robot: Robot, trial: Trial) -> Measured:
+def _measured(robot: Robot, trial: Trial) -> Measured:
     """What the simulation measured at the dance's frames; the margin where a foot touches the floor."""
     motion = trial.motion
     at = np.minimum(np.searchsorted(trial.times, motion.times), len(trial.times) - 1)
-    corners = sole_corners(legs, configurations(robot, motion))[..., :2].reshape(len(at), -1, 2)
-    on = trial.contacts[at]
-    some, margin = on.any(axis=1), np.full(len(at), np.nan)
-    touching = np.repeat(on, corners.shape[1] // 2, axis=1)
-    margin[some] = Polygons.around(corners[some], touching[some]).margins(trial.pressure[at][some])
     error = np.degrees(np.sqrt(np.square(trial.error[at]).mean(axis=1)))
-    return Measured(motion.times, margin, error, zmp=trial.pressure[at])
+    return Measured(motion.times, measured_margins(robot, trial), error, zmp=pressed_at(trial))
 
 
 def _sound(music: Music, staged: Staged) -> tuple[Float32, int]:

@@ -46,6 +46,10 @@ class DanceDocument(msgspec.Struct, frozen=True):
     metrics: Annotated[dict[str, Any], Said(description="names and values as `onbeat evaluate --json` gives them")]
     title: Annotated[str, Said(description="the song's name")] = ""
     joins: Annotated[list[JoinDocument], Said(description="one for each move but the first")] = []
+    heard_bpm: Annotated[
+        float | UnsetType,
+        Said(description="tempo that is heard, beats a minute; told where half or double of it is danced to"),
+    ] = UNSET
     warp: Annotated[
         list[float] | UnsetType,
         Said(description="seconds of the plan at even steps of the dance; told where stretches were kept"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -24,11 +25,23 @@ from onbeat.motion.features import hand_features
 from onbeat.motion.motion import Motion
 from onbeat.moves.library import MoveLibrary
 from onbeat.music.song import Song
-from onbeat.music.tempo import danceable_beats
+from onbeat.music.tempo import danceable_beats, fold_of
 
 LONGEST = 1200.0
 """Seconds of song that one dance may last: its motion is held in memory whole."""
 Step = Callable[[str, float], None]
+
+
+def clock(seconds: float) -> str:
+    """Minutes and seconds, with its unit; a part of a second counts as one.
+
+    Examples
+    --------
+    >>> clock(1229.2)
+    '20:30 minutes'
+    """
+    whole = math.ceil(seconds)
+    return f"{whole // 60}:{whole % 60:02d} minutes"
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +113,7 @@ def make_dance(
     (240, 'optimal')
     """
     say = step or _silent
-    song = _danceable(song)
+    heard, song = song.tempo, _danceable(song)
     fps = max(clip.fps for clip in library.clips) if fps is None else fps
     if not 1.0 <= fps <= 1000.0:
         raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
@@ -119,13 +132,15 @@ def make_dance(
         done, fitted = first, None
         held, spans = ((), None) if wished is None else (wished.held(), wished.spans(plan))
         if warp or held:
-            say("warping", 0.4)
+            say("warping", 0.0)
             beats = song.beats if warp else song.beats[:0]
             fitted = fit_warp(plan, features.body_stops, beats, features.times, features.speeds.max(axis=1), held=held)
             done = realise(clips, plan, fps, fitted, spans=spans)
-        say("measuring", 0.7)
+        say("measuring", 0.0)
         measured = measure(few, song, replace(found, plan=plan), first, done, fitted, seed)
     document = _document(library, song, found, done, fitted, measured, fps, seed, method)
+    if fold_of(heard, song.tempo):
+        document = msgspec.structs.replace(document, heard_bpm=round(heard, 2))
     if wished is not None:
         document = _with_wishes(document, wished, found.plan, library, fitted)
     say("measuring", 1.0)
@@ -146,7 +161,7 @@ def _with_wishes(
 def _danceable(song: Song) -> Song:
     if song.duration > LONGEST:
         raise PlanError(
-            f"the song lasts {song.duration / 60:.0f} minutes; a dance lasts at most {LONGEST / 60:.0f}: "
+            f"the song lasts {clock(song.duration)}; a dance lasts at most {clock(LONGEST)}: "
             "choose a stretch with --start and --seconds"
         )
     song = danceable_beats(song)

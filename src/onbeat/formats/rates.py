@@ -7,7 +7,7 @@ from decimal import Decimal, InvalidOperation
 
 from onbeat.formats.notes import tell
 
-ASK = "say it with --fps (of `onbeat convert`, --source-fps)"
+ASK = "say it with --source-fps"
 _WHOLE_TOLERANCE = 2.5e-3
 
 

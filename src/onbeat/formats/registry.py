@@ -52,6 +52,8 @@ class Format(NamedTuple):
     """Tells motion from the other files of a folder that have this suffix; without it all are motion."""
 
 
+SOUNDS = (".wav", ".flac", ".ogg", ".oga", ".opus", ".mp3", ".m4a", ".aac", ".aif", ".aiff")
+"""Suffixes of songs, so that who gives one for motion is told."""
 _MM_UP, _USD = Convention("z", "mm"), Convention("z", "m")
 FORMATS = (
     Format(".bvh", "Biovision Hierarchy", read_bvh, write_bvh, convention=Convention("y", "cm")),
@@ -85,4 +87,6 @@ def _format(path: Path, verb: str, able: list[Format]) -> Format:
         if path.name.lower().endswith(known.suffix):
             return known
     names = ", ".join(f.suffix for f in able)
+    if path.suffix.lower() in SOUNDS:
+        raise FormatError(f"{path} is a song; a motion file is expected here ({names})")
     raise FormatError(f"cannot {verb} {path}: the suffix {path.suffix!r} is not one of {names}")

@@ -235,7 +235,7 @@ METHODS: Mapping[str, Callable[[Motion | Markers, Times, Options], Keyposes]] = 
 
 def find_keyposes(
     source: Motion | Markers,
-    beats: Times,
+    beats: Times | None = None,
     method: str = "energy",
     options: Options = Options(),
 ) -> Keyposes:
@@ -244,14 +244,14 @@ def find_keyposes(
     Parameters
     ----------
     source : a motion or markers.
-    beats : (B,) seconds on the motion's clock.
+    beats : (B,) seconds on the motion's clock, as a song's are; without them those of the motion's own pulse.
     method : a name of ``METHODS``.
     options : of the methods by energy.
 
     Raises
     ------
     PlanError
-        If ``method`` is unknown, or the beats do not cover the motion.
+        If ``method`` is unknown, the beats do not cover the motion, or it keeps no pulse and none are given.
     BodyError
         If the body's centre cannot be found.
 
@@ -264,7 +264,15 @@ def find_keyposes(
     >>> found = find_keyposes(clip.motion, clip.beats)
     >>> len(clip.keyposes), len(found)  # the pose in which the dance ends is found, too
     (8, 9)
+    >>> len(find_keyposes(clip.motion))  # by its own pulse, which no music tells
+    9
     """
     if method not in METHODS:
         raise PlanError(f"no method {method!r} finds keyposes; there are {', '.join(METHODS)}")
-    return METHODS[method](source, beats, options)
+    return METHODS[method](source, _own_beats(source) if beats is None else beats, options)
+
+
+def _own_beats(source: Motion | Markers) -> Times:
+    from onbeat.keyposes.motion_tempo import motion_beats  # what is compiled in it is not needed where beats are told
+
+    return motion_beats(source)

@@ -28,7 +28,7 @@ from onbeat._shapes import Array, Ints, Positions, Times
 from onbeat.errors import MetricError
 from onbeat.metrics.windows import WINDOW, near_joins, ratio, statistic
 from onbeat.motion.body import Body
-from onbeat.motion.links import link_directions, link_error
+from onbeat.motion.links import LINKS, link_directions, link_error
 from onbeat.motion.motion import Motion
 
 RATE = 120.0
@@ -87,9 +87,20 @@ def join_link_errors(clips: Sequence[Motion], moves: Sequence[tuple[int, float, 
 
     ``moves`` are (clip, from_s, to_s) in order; join k lies between moves k and k + 1.
     """
-    left = [link_directions(clips[clip].at(np.array([to]))) for clip, _, to in moves[:-1]]
-    entered = [link_directions(clips[clip].at(np.array([start]))) for clip, start, _ in moves[1:]]
-    return link_error(np.concatenate(left), np.concatenate(entered)) if left else np.zeros(0)
+    if len(moves) < 2:
+        return np.zeros(0)
+    left = _directions(clips, [(clip, to) for clip, _, to in moves[:-1]])
+    return link_error(left, _directions(clips, [(clip, start) for clip, start, _ in moves[1:]]))
+
+
+def _directions(clips: Sequence[Motion], poses: Sequence[tuple[int, float]]) -> Array:
+    """(K, 17, 3) link directions of poses (clip, second), those of a clip reckoned together."""
+    clip_of, seconds = np.array([clip for clip, _ in poses]), np.array([second for _, second in poses])
+    directions = np.zeros((len(poses), len(LINKS), 3))
+    for clip in np.unique(clip_of).tolist():
+        mine = clip_of == clip
+        directions[mine] = link_directions(clips[clip].at(seconds[mine]))
+    return directions
 
 
 def joint_groups(body: Body) -> dict[str, Ints]:

@@ -163,8 +163,11 @@ class Motion:
         )
 
     def __getitem__(self, frames: slice) -> Motion:
-        """Some of the frames, as a motion."""
+        """Some of the frames, as a motion; where its joints are is not reckoned again if that was done for all."""
         translations = None if self.translations is None else self.translations[frames]
-        return Motion(
+        part = Motion(
             self.skeleton, self.rotations[frames], self.root_positions[frames], self.fps, self.name, translations
         )
+        if "_world" in self.__dict__:
+            part.__dict__["_world"] = tuple(frozen(array[frames]) for array in self._world)
+        return part

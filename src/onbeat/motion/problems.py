@@ -122,13 +122,34 @@ def _rest_first(motion: Motion) -> Iterator[str]:
         )
 
 
-def _size(motion: Motion, body: Body | None) -> Iterator[str]:
-    """By the legs where they are known: who crouches all the time is not small."""
+def odd_size(motion: Motion, body: Body | None) -> str:
+    """Words on a body of a size that needs an explanation; none ("") of one that does not.
+
+    By the legs where they are known: who crouches all the time is not small.
+
+    Parameters
+    ----------
+    motion : metres, Z up.
+    body : its roles; None where they are not known.
+
+    Examples
+    --------
+    >>> from onbeat.motion.skeleton import Skeleton
+    >>> rod = Skeleton(("foot", "head"), [-1, 0], [[0, 0, 0], [0, 0, 0.17]])
+    >>> odd_size(Motion(rod, np.tile([1.0, 0, 0, 0], (2, 2, 1)), np.zeros((2, 3)), fps=30), None)
+    'the body is 0.17 m tall: is the unit right?'
+    """
     height = stature(motion)
     legs = 0.82 if body is None else body.leg_length
-    if not (SIZES[0] <= height <= SIZES[1] and LEGS[0] <= legs <= LEGS[1]):
-        of_legs = "" if body is None else f", its legs {legs:.2f} m long"
-        yield f"the body is {height:.2f} m tall{of_legs}: is the unit right? (`--source-unit`; in are inches)"
+    if SIZES[0] <= height <= SIZES[1] and LEGS[0] <= legs <= LEGS[1]:
+        return ""
+    of_legs = "" if body is None else f", its legs {legs:.2f} m long"
+    return f"the body is {height:.2f} m tall{of_legs}: is the unit right?"
+
+
+def _size(motion: Motion, body: Body | None) -> Iterator[str]:
+    if said := odd_size(motion, body):
+        yield f"{said} (`--source-unit`; in are inches)"
 
 
 def _stretching(motion: Motion) -> Iterator[str]:

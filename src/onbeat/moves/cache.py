@@ -36,7 +36,7 @@ def cache_folder() -> Path:
 
 
 def build_or_open(
-    paths: Path | Sequence[Path],
+    paths: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     cache: Path | None = None,
     *,
     mirror: bool = True,

@@ -12,12 +12,15 @@ from onbeat.errors import LibraryError, OnbeatError
 from onbeat.motion.body import Body
 from onbeat.motion.mirror import mirrored
 from onbeat.motion.motion import Motion
+from onbeat.motion.problems import odd_size
 from onbeat.motion.retarget import retarget, stands_in_rest
 from onbeat.motion.skeleton import Skeleton
 from onbeat.moves.library import CLIP_RATE, SHORTEST, Clip
 from onbeat.moves.recordings import Recording
 
 MIRROR_SUFFIX = "~mirror"
+UNIT = "(`onbeat convert FILE NEW.npz --source-unit in` makes one that is right, if these are inches)"
+LOOKED_AT = 64  # frames of a recording by which its body's size is judged
 GUESSED = "no names tell which joints are arms and legs: guessed from the rest pose; a roles file beside it tells them"
 
 
@@ -55,7 +58,7 @@ def read_recording(recording: Recording) -> Read:
         warnings.simplefilter("always", UserWarning)
         try:
             motion = recording.read()
-            how = Body.of(motion.skeleton).how
+            own = Body.of(motion.skeleton)
         except (OnbeatError, OSError) as error:
             raise LibraryError(_one_line(error, recording)) from None
         finally:
@@ -65,8 +68,15 @@ def read_recording(recording: Recording) -> Read:
     body, seconds = skeleton_digest(motion.skeleton), motion.duration
     motion = motion if motion.fps <= CLIP_RATE + 1e-6 else motion.resampled(CLIP_RATE)
     notes = tuple(dict.fromkeys(_one_line(warning.message, recording) for warning in noted))
-    notes += (GUESSED,) if "guess" in how.values() else ()
+    notes += (GUESSED,) if "guess" in own.how.values() else ()
+    notes += _told_size(motion, own)
     return Read(recording, body, seconds, notes, lambda: motion)
+
+
+def _told_size(motion: Motion, body: Body) -> tuple[str, ...]:
+    """A note on a body of no body's size, as a wrong unit makes it; some frames tell, for archives are large."""
+    said = odd_size(motion[:: -(-len(motion) // LOOKED_AT)], body)
+    return (f"{said} {UNIT}",) if said else ()
 
 
 class ChangedError(LibraryError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -79,6 +80,17 @@ def danceable_beats(song: Song, slowest: float = DANCE_SLOWEST, fastest: float =
     while 0.0 < song.tempo < slowest and len(song.beats) > 1 and song.tempo * 2.0 <= fastest:
         song = _doubled(song)
     return song
+
+
+def fold_of(heard: float, danced: float) -> str:
+    """Which part of a tempo that is heard is danced to, in a word; none ("") where it is danced to as it is.
+
+    >>> fold_of(180.0, 90.0), fold_of(50.0, 100.0), fold_of(100.0, 100.0)
+    ('half', 'double', '')
+    """
+    if math.isclose(heard, danced, rel_tol=1e-3):
+        return ""
+    return "double" if danced > heard else "half" if danced > 0.3 * heard else "a quarter"
 
 
 def _every_other(song: Song) -> Ints:

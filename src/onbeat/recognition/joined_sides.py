@@ -32,9 +32,11 @@ class JoinedSides(Recogniser):
     """
 
     @classmethod
-    def train(cls, segments: Segments, rng: np.random.Generator, *, across: bool = False) -> Recogniser:
+    def train(
+        cls, segments: Segments, rng: np.random.Generator, *, across: bool = False, newcomers: bool = False
+    ) -> Recogniser:
         """Learn from segments, or their mirror images, whichever lead with the right."""
-        return super().train(joined(segments), rng, across=across)
+        return super().train(joined(segments), rng, across=across, newcomers=newcomers)
 
     def predict(self, segments: Segments) -> list[Prediction]:
         """What each segment, or its mirror image, is taken for."""

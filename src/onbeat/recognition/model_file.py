@@ -19,10 +19,12 @@ from onbeat.recognition.choice import Choice, Option
 from onbeat.recognition.features import ELASTIC, FLAT, NEEDED
 from onbeat.recognition.joined_sides import JoinedSides
 from onbeat.recognition.novelty import Novelty
-from onbeat.recognition.recogniser import Expert, Learned, Recogniser
+from onbeat.recognition.recogniser import Across, Expert, Learned, Recogniser
 from onbeat.recognition.subspace import Basis, Subspace
 
-FORMAT, VERSION = "onbeat recogniser", 1
+FORMAT, VERSION = "onbeat recogniser", 2
+READ = (1, 2)
+"""Versions that are read; in 1 nothing was learned of tasks by new persons."""
 LARGEST = 1 << 30
 """Bytes of all arrays together; more is not read."""
 _FARTHEST, _LARGEST = 1e15, 1e50  # of places, and of any number
@@ -58,6 +60,11 @@ class _Header(msgspec.Struct):
     mirrored: Literal["apart", "joined"] = "apart"
     task: _Factor | None = None
     person: _Factor | None = None
+    task_across: _Factor | None = None
+    person_across: _Factor | None = None
+
+
+_PARTS = ("task", "person", "task_across", "person_across")
 
 
 def save_recogniser(recogniser: Recogniser, path: str | os.PathLike[str]) -> None:
@@ -69,7 +76,8 @@ def save_recogniser(recogniser: Recogniser, path: str | os.PathLike[str]) -> Non
         If the file cannot be written; what was there before is kept.
     """
     arrays: dict[str, np.ndarray] = {}
-    factors = {name: _packed(name, getattr(recogniser, name), arrays) for name in ("task", "person")}
+    experts = (recogniser.task, recogniser.person, *recogniser.across)
+    factors = {name: _packed(name, expert, arrays) for name, expert in zip(_PARTS, experts, strict=True)}
     sides = "joined" if isinstance(recogniser, JoinedSides) else "apart"
     header = _Header(FORMAT, VERSION, list(recogniser.elements), recogniser.moments, sides, **factors)
     arrays = {_HEADER: np.frombuffer(msgspec.json.encode(header), np.uint8), **arrays}
@@ -120,12 +128,14 @@ def load_recogniser(path: str | os.PathLike[str]) -> Recogniser:
     try:
         experts = [
             None if factor is None else _unpacked(name, factor, arrays, header)
-            for name, factor in (("task", header.task), ("person", header.person))
+            for name, factor in zip(
+                _PARTS, (header.task, header.person, header.task_across, header.person_across), strict=True
+            )
         ]
     except (KeyError, ValueError) as error:
         raise _damaged(path, str(error)) from None
     kind = JoinedSides if header.mirrored == "joined" else Recogniser
-    return kind(tuple(header.elements), header.moments, experts[0], experts[1])
+    return kind(tuple(header.elements), header.moments, experts[0], experts[1], Across(*experts[2:]))
 
 
 def _damaged(path: Path, why: str) -> FormatError:
@@ -158,9 +168,9 @@ def _header(arrays: Mapping[str, np.ndarray], path: Path) -> _Header:
         said = msgspec.json.decode(stored.tobytes(), type=dict[str, object])
         if said.get("format") != FORMAT:
             raise _damaged(path, f"its header says {said.get('format')!r}, not {FORMAT!r}")
-        if said.get("version") != VERSION:
+        if said.get("version") not in READ:
             raise FormatError(
-                f"{path} is of version {said.get('version')!r}, this program reads {VERSION}; "
+                f"{path} is of version {said.get('version')!r}, this program reads {READ[0]} and {READ[1]}; "
                 "train it again with `onbeat recognise train`"
             )
         return msgspec.convert(said, _Header)

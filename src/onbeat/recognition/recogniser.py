@@ -1,14 +1,17 @@
 """The recogniser: what is danced and who dances it, or that it is something or somebody new.
 
 Each factor has its own :class:`Expert`: the views that cross-validation chose for it (:mod:`.choice`), each as a
-distance from every known class, together as one score; and the threshold beyond which the nearest class is not it.
+distance from every known class, together as one score; and the threshold beyond which the nearest class is not it. How
+far known may be is a question of its own: another repetition by somebody known is near, the same task by somebody new
+is farther, often as far as a new task. So what is nobody's repetition is looked at again by :class:`Across`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -25,6 +28,11 @@ from onbeat.recognition.subspace import Basis, Subspace
 
 CHOOSING, REFERENCES = 512, 1024
 """Most training segments that choices are made by, and that probes are aligned with; as many of each cell as can be."""
+FEWEST, NAMED, TELLING = 3, 0.6, 0.55
+"""With which :class:`Across` is kept: how many classes (of two each is the other's only stranger, and a third may lie
+anywhere between), the share named right across the other factor, and the AUROC of new against known there, both
+cross-validated. Dancers who cannot be told in a task of which nothing was learned have an AUROC of 0.5: everybody would
+perhaps be somebody."""
 
 
 class Match(NamedTuple):
@@ -44,6 +52,8 @@ class Prediction(NamedTuple):
     task_scores, person_scores : all known ones, likeliest first; the probabilities and that of being new are 1.
     task_known, person_known : False for something, somebody new.
     margins : of task and person, how far within the threshold (above 0) or beyond it, in factors of e of distance.
+    task_across, person_across : as the scores, were it danced by somebody new, or in a task that is new; () where that
+        was not learned.
     """
 
     task: str
@@ -53,6 +63,27 @@ class Prediction(NamedTuple):
     task_known: bool
     person_known: bool
     margins: tuple[float, float]
+    task_across: tuple[Match, ...] = ()
+    person_across: tuple[Match, ...] = ()
+
+    @property
+    def perhaps(self) -> Literal["task", "person"] | None:
+        """Where both are new: whether it is a known "task" by somebody new, or a known "person" in a new task.
+
+        The likelier of both that are near enough. It is a guess: what is new in both is often as near.
+        """
+        if self.task_known or self.person_known:
+            return None
+        task, person = (
+            many[0].probability if many and many[0].within else 0.0 for many in (self.task_across, self.person_across)
+        )
+        return None if not max(task, person) else "task" if task >= person else "person"
+
+    def said(self, factor: Literal["task", "person"]) -> str:
+        """The name that a factor is taken for, that of a guess (:attr:`perhaps`), too; "" for new."""
+        if self.task_known if factor == "task" else self.person_known:
+            return self.task if factor == "task" else self.person
+        return (self.task_across if factor == "task" else self.person_across)[0].name if self.perhaps == factor else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +121,17 @@ class Expert:
         return combined(found, self.choice.scales)
 
 
+class Across(NamedTuple):
+    """Experts for tasks by somebody new and for persons in a new task; None where training could not try, or failed."""
+
+    task: Expert | None = None
+    person: Expert | None = None
+
+
+NEAR_ONLY = Across()
+"""Nothing was learned of tasks by new persons and of persons in new tasks."""
+
+
 @dataclass(frozen=True, eq=False)
 class Recogniser:
     """Recognises tasks and persons, each with its own expert; a factor without labels has none.
@@ -112,9 +154,12 @@ class Recogniser:
     moments: int
     task: Expert | None
     person: Expert | None
+    across: Across = NEAR_ONLY
 
     @classmethod
-    def train(cls, segments: Segments, rng: np.random.Generator, *, across: bool = False) -> Recogniser:
+    def train(
+        cls, segments: Segments, rng: np.random.Generator, *, across: bool = False, newcomers: bool = False
+    ) -> Recogniser:
         """Learn from segments whose tasks, persons or both are known.
 
         All choices and thresholds come from cross-validation inside ``segments``: for tasks by leaving out persons,
@@ -127,6 +172,9 @@ class Recogniser:
         across : how far known may be from what was learned. False: as far as another repetition by a known person
             (as another person's or task's, where nothing is repeated). True: as far as a known task by a new person,
             and a known person in a new task.
+        newcomers : whether to learn how far that is as well, beside the nearer threshold: what is beyond the one and
+            within the other is then a guess, :attr:`Prediction.perhaps`. All else stays as it is. Of no meaning where
+            ``across`` is the threshold already.
 
         Raises
         ------
@@ -139,8 +187,12 @@ class Recogniser:
         few = labelled[thinned(_cells(labelled), CHOOSING, rng)]
         with threadpool_limits(1):  # thousands of small products: threads would only wait for each other
             compared = Compared.of(few)
-            experts = {name: _expert(labelled, few, compared, name, across, rng) for name in ("task", "person")}
-        return cls(segments.elements, segments.positions.shape[1], experts["task"], experts["person"])
+            same = deepcopy(rng)  # so that what is learned besides changes no draw of the others'
+            task, person = (_expert(labelled, few, compared, name, across, rng) for name in ("task", "person"))
+            far = NEAR_ONLY
+            if newcomers and not across:
+                far = Across(*(_far(labelled, few, compared, name, same) for name in Across._fields))
+        return cls(segments.elements, segments.positions.shape[1], task, person, far)
 
     def predict(self, segments: Segments) -> list[Prediction]:
         """What each segment is taken for.
@@ -153,13 +205,15 @@ class Recogniser:
         probes = self._matched(segments)
         if not len(probes):
             return []
-        experts = [expert for expert in (self.task, self.person) if expert is not None]
-        views = views_of(probes, sorted({option.view for expert in experts for option in expert.choice.options}))
+        experts = (self.task, self.person, *self.across)
+        views = views_of(probes, sorted({option.view for one in experts if one for option in one.choice.options}))
         with threadpool_limits(1):
-            tables = [_answers(expert, views, len(probes)) for expert in (self.task, self.person)]
+            tables = [_answers(expert, views, len(probes)) for expert in experts]
         return [
-            Prediction(t.name, p.name, t.matches, p.matches, t.known, p.known, (t.margin, p.margin))
-            for t, p in zip(*tables, strict=True)
+            Prediction(
+                t.name, p.name, t.matches, p.matches, t.known, p.known, (t.margin, p.margin), far.matches, away.matches
+            )
+            for t, p, far, away in zip(*tables, strict=True)
         ]
 
     def _matched(self, segments: Segments) -> Segments:
@@ -234,6 +288,15 @@ def _expert(
     kept = segments[np.array([bool(label) for label in labels], bool)]
     classes = _numbers([label for label in labels if label], names)
     return Expert(names, choice, _learn(kept, classes, len(names), choice.options, rng))
+
+
+def _far(segments: Segments, few: Segments, compared: Compared, factor: str, rng: np.random.Generator) -> Expert | None:
+    """A factor across the other: None where that cannot be tried, or fails."""
+    pairs = [(own, other) for own, other in zip(*_labels(few, factor), strict=True) if own and other]
+    if len({own for own, _ in pairs}) < FEWEST or len({other for _, other in pairs}) < 2:
+        return None
+    expert = _expert(segments, few, compared, factor, True, rng)
+    return expert if expert and expert.choice.accuracy >= NAMED and expert.choice.auroc >= TELLING else None
 
 
 def _part(compared: Compared, at: Ints) -> Compared:

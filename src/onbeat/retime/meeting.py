@@ -8,6 +8,7 @@ import numpy as np
 
 from onbeat._shapes import Times
 from onbeat.errors import PlanError
+from onbeat.music.song import Song
 from onbeat.retime.lock import TimeMap, lock
 
 
@@ -59,3 +60,37 @@ def meet(dance: Times, music: Times, first: int = 0) -> Meeting:
     if count < 2:
         raise PlanError(f"only {count} beat of the dance meets one of the music; two are needed")
     return Meeting(lock(beats[:count], dance[:count]), float(fold), beats[:count], dance[:count])
+
+
+class Wanted(NamedTuple):
+    """``warp``, the music's seconds to the dance's; ``until``, the music's second at which it ends at the latest."""
+
+    warp: TimeMap
+    until: float
+
+
+def wanted_time(beats: Times, speed: float | None = None, song: Song | None = None) -> Wanted:
+    """The time that a dance is to be in: so much faster, or on the beats of a song, from its first downbeat on.
+
+    Parameters
+    ----------
+    beats : (B,) of the dance, in its own seconds.
+    speed : 1.2 is a fifth faster; 1 without it and a song.
+    song : to be danced to instead.
+
+    Raises
+    ------
+    PlanError
+        If both are given, the speed is not above 0, or fewer than two beats of both meet.
+
+    Examples
+    --------
+    >>> wanted_time(np.arange(8) * 0.5, speed=1.2).warp(np.array([1.0])).round(6).tolist()
+    [1.2]
+    """
+    if song is None:
+        return Wanted(TimeMap.steady(1.0 if speed is None else speed), np.inf)
+    if speed is not None:
+        raise PlanError(f"a speed of {speed:g} and a song: give one of them")
+    down = np.flatnonzero(np.isin(song.beats, song.downbeats))
+    return Wanted(meet(beats, song.beats, int(down[0]) if len(down) else 0).warp, song.duration)

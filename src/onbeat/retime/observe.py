@@ -9,7 +9,8 @@ import numpy as np
 
 from onbeat._shapes import Array, frozen
 from onbeat.errors import MetricError
-from onbeat.retime.takes import Repetitions
+from onbeat.retime.takes import Repetitions, Take, repetitions
+from onbeat.retime.upper_body import upper_body
 
 STIFF = 1e-9
 """Share of the largest variance under which a joint never differs, and of a joint's own under which it is none."""
@@ -64,12 +65,45 @@ class Observation:
         return (*own, self.all) if len(self.speeds) > 1 else own
 
 
-def observe(repetitions: Repetitions) -> Observation:
+def observe(repeated: Repetitions) -> Observation:
     """Mean and variance at each speed and over all repetitions, layer by layer."""
-    each = [repetitions.logs(k + 1) for k in range(repetitions.layers.shape[1])]
-    speeds = np.unique(repetitions.speeds).tolist()
-    of = [_curves(speed, [logs[repetitions.speeds == speed] for logs in each]) for speed in speeds]
-    return Observation(repetitions, tuple(of), _curves(0.0, each))
+    each = [repeated.logs(k + 1) for k in range(repeated.layers.shape[1])]
+    speeds = np.unique(repeated.speeds).tolist()
+    of = [_curves(speed, [logs[repeated.speeds == speed] for logs in each]) for speed in speeds]
+    return Observation(repeated, tuple(of), _curves(0.0, each))
+
+
+def observe_takes(takes: Sequence[Take], joints: Sequence[str] | None = None, cycle: int | None = None) -> Observation:
+    """What takes of one dance have in common and where they differ, at each of their speeds.
+
+    Parameters
+    ----------
+    takes : two or more, each with its beats and its speed; beat k is the same place of the dance in all of them.
+    joints : names of those that are looked at; the upper body's without them.
+    cycle : beats after which the dance repeats, to cut every take into its cycles.
+
+    Raises
+    ------
+    MetricError
+        If there are less than two takes or cycles, a joint is missing, or a take has too few beats.
+    BodyError
+        If no joints are named and the body's roles are not found.
+
+    Examples
+    --------
+    >>> from onbeat.examples.dancers import DANCERS
+    >>> from onbeat.examples.folk_dance import FOLK_DANCE
+    >>> from onbeat.examples.performer import perform
+    >>> clips = [perform(DANCERS[0], [FOLK_DANCE], speed, 1, np.random.default_rng(0)) for speed in (1.0, 1.2)]
+    >>> takes = [Take(clip.motion, clip.beats[:9], clip.speed) for clip in clips]
+    >>> found = observe_takes(takes, ["LeftArm", "RightArm"])
+    >>> [one.speed for one in found.speeds], found.all.mean.shape
+    ([1.0, 1.2], (5, 257, 2, 3))
+    """
+    if not takes:
+        raise MetricError("no take to observe; give two of the same dance or more")
+    names = upper_body(takes[0].motion.skeleton) if joints is None else joints
+    return observe(repetitions(takes, names, cycle))
 
 
 def _curves(speed: float, logs: Sequence[Array]) -> Curves:

@@ -10,6 +10,7 @@ import numpy as np
 from onbeat._shapes import Array
 from onbeat.retime.attenuation import Attenuation
 from onbeat.retime.hierarchy import SPACING
+from onbeat.retime.likeness import likeness
 from onbeat.retime.observe import Curves, Observation
 
 VERSION = 1
@@ -86,6 +87,17 @@ class ObserveDocument(msgspec.Struct, frozen=True):
     resampled: Annotated[str, Said(description="what intervals draw again: `takes` or `cycles`")]
     valleys: Annotated[list[float], Said(description="beats of the valleys that all curves have in common")]
     scores: Annotated[list[ScoreDocument], Said(description="one where keyposes are known")] = []
+    likeness: Annotated[
+        list[float],
+        Said(
+            description="of each repetition: the correlation of its joints' rotations with those of the others, the "
+            "mean. Of one dance it is 0.6 and more, of different dances 0.4 at most. Empty where one does not move"
+        ),
+    ] = []
+    likeness_shifted: Annotated[
+        list[float],
+        Said(description="the mean correlation with one of both shifted by whole beats, and the standard deviation"),
+    ] = []
 
     def to_json(self) -> bytes:
         """The document as JSON bytes."""
@@ -111,6 +123,7 @@ def observe_document(
     scores : one where keyposes are known.
     """
     every = found.repetitions
+    alike = likeness(every)
     joint = every.joints.index(drawn)
     curves = (*found.speeds, found.all)
     return ObserveDocument(
@@ -124,6 +137,8 @@ def observe_document(
         resampled=energies.drawn,
         valleys=_rounded(common),
         scores=scores,
+        likeness=_rounded(alike.each),
+        likeness_shifted=_rounded(np.array([alike.shifted, alike.deviation])),
     )
 
 

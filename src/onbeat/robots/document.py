@@ -9,6 +9,7 @@ import numpy as np
 
 from onbeat.retime.document import ViolationsDocument
 from onbeat.robots.lateness import MET, lateness
+from onbeat.robots.measured import HAIR, measured_margins
 from onbeat.robots.model import Robot
 from onbeat.robots.perform import Staged
 from onbeat.robots.trial import Trial
@@ -35,6 +36,16 @@ class TrialDocument(msgspec.Struct, frozen=True):
     saturated: Annotated[float, Said(description="share of the time in which the busiest motor gave all it has")]
     beats: Annotated[int, Said(description="of the dance within the simulated time")]
     beats_met: Annotated[int, Said(description="at which its pose was danced within 50 ms")]
+    inside: Annotated[
+        float | None,
+        Said(
+            description="share of the frames in which a foot touched the floor and the measured centre of pressure was "
+            "inside the soles' hull, 0…1, as `zmp.inside` is planned; null if nothing touched"
+        ),
+    ] = None
+    worst_mm: Annotated[
+        float | None, Said(description="mm by which it was inside at the least, likewise; below 0 outside")
+    ] = None
 
 
 class RobotDocument(msgspec.Struct, frozen=True):
@@ -96,6 +107,8 @@ def _tried(robot: Robot, staged: Staged, trial: Trial) -> TrialDocument:
     inside = staged.beats - staged.start
     end = trial.motion.duration if trial.fell_at is None else trial.fell_at
     inside = inside[(inside >= 0) & (inside < end)]
+    margins = measured_margins(robot, trial)
+    margins = margins[np.isfinite(margins)]
     return TrialDocument(
         fell_at=None if trial.fell_at is None else round(trial.fell_at, 3),
         why=trial.why,
@@ -104,4 +117,6 @@ def _tried(robot: Robot, staged: Staged, trial: Trial) -> TrialDocument:
         saturated=round(float(trial.saturated.max(initial=0.0)), 4),
         beats=len(inside),
         beats_met=int(np.sum(np.abs(lateness(robot, staged.motion, trial.motion, inside)) <= MET)),
+        inside=round(float(np.mean(margins >= -HAIR)), 6) if len(margins) else None,
+        worst_mm=round(1000 * float(margins.min()), 2) + 0.0 if len(margins) else None,
     )
