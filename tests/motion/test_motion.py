@@ -19,6 +19,9 @@ def test_times_and_duration():
     assert motion.times[-1] == pytest.approx(44 / 30)
     assert len(motion[10:20]) == 10
     np.testing.assert_array_equal(motion[10:20].positions, motion.positions[10:20])
+    part = motion[10:40:3]  # of a motion whose joints' places are known
+    np.testing.assert_array_equal(part.positions, part.replace(fps=10).positions)
+    assert not part.positions.flags.writeable
 
 
 def test_at_frame_times_is_the_motion_itself():
