@@ -20,7 +20,10 @@ RESULT = PaperResult(
     paper_data="26 motions",
     our_data="17 motions",
     differs=("made, not captured",),
-    claims=(Claim("beats are tracked", True, "12 of 13"), Claim("people like it", None, "nobody was asked")),
+    claims=(
+        Claim("beats are tracked", True, "12 of 13", ("Table I", "Fig. 9")),
+        Claim("people like it", None, "nobody was asked"),
+    ),
     parts=(
         TableResult("Table I", "Beats", (Row("La Bamba", "0.598 s", "0.596 s"), Row("another", None, "0.5 s"))),
         FigureResult("Fig. 5", "Paths", SVG, "a diagram", 'a decision, "real"'),

@@ -103,7 +103,7 @@ def test_a_claim_that_so_few_songs_cannot_tell_from_chance_is_left_open(danced: 
 
     assert holds(followed(0.5, 0.4, -0.6), followed(0.1, 0.1, -0.2)) is None
     assert holds(followed(*[0.5] * 5), followed(*[0.1] * 5)) is True
-    assert holds(followed(0.1, 0.1), followed(0.5, 0.0)) is False
+    assert holds(followed(*[0.1] * 5), followed(*[0.5] * 5)) is False
 
 
 def test_songs_that_are_tracked_are_danced_to_as_in_the_paper_and_all_where_none_is(heard: Tune):

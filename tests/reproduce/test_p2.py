@@ -16,7 +16,7 @@ from onbeat.reproduce.p2 import PAPER
 from onbeat.reproduce.p2_curves import lowered, stretches
 from onbeat.reproduce.p2_hand import compared, hand_paths
 from onbeat.reproduce.p2_methods import OURS, PRINTED, PUBLISHED, ask, detail_kept
-from onbeat.reproduce.p2_observed import detail_left, kept, observed
+from onbeat.reproduce.p2_observed import Kept, detail_left, kept, observed
 from onbeat.reproduce.p2_seen import Seen
 from onbeat.reproduce.p2_seen_claims import seen_claims
 from onbeat.reproduce.p2_takes import Solo, real_takes, troupe_takes
@@ -78,6 +78,18 @@ def test_claims_turn_where_the_dance_is_merely_played(danced, played):
     assert not of_played[insight].holds
     assert len(of_danced) == len(seen_claims(None, "no takes"))
     assert {claim.holds for claim in seen_claims(None, "no takes")} == {None}
+
+
+def test_so_few_valleys_that_a_coin_would_do_as_well_decide_nothing(danced, monkeypatch):
+    def holds(valleys: int, right: int, recall: float = 0.6) -> bool | None:
+        told = Kept(valleys, 8, right / valleys, recall, 0.2, 0.1)
+        monkeypatch.setattr("onbeat.reproduce.p2_seen_claims.kept", lambda _: told)
+        return seen_claims(Seen((danced,), (), (danced.takes,)))[4].holds
+
+    assert holds(5, 3) is None
+    assert holds(40, 36) is True
+    assert holds(40, 36, recall=0.3) is None
+    assert holds(40, 4) is False
 
 
 def test_methods_keep_the_limits_and_ours_the_keyposes(asked):

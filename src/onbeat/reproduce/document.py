@@ -119,7 +119,7 @@ def _paper(result: PaperResult) -> ReproducedPaper:
         paper_data=result.paper_data,
         our_data=result.our_data,
         differs=list(result.differs),
-        claims=[ReproducedClaim(claim.said, claim.holds, claim.found) for claim in result.claims],
+        claims=[ReproducedClaim(claim.said, claim.holds, claim.told) for claim in result.claims],
         tables=[_table(part) for part in result.parts if isinstance(part, TableResult)],
         figures=[_figure(result.key, part) for part in result.parts if isinstance(part, FigureResult)],
     )

@@ -201,7 +201,8 @@ def _figure_5(danced: Danced, library: MoveLibrary) -> tuple[FigureResult, ...]:
         "best of them is danced.",
         f"A real decision, {choice.second:.2f} s into the dance to {danced.tune.title}. There are {len(choice.paths)} "
         "ways to go on over the next 3 s, each shown with its best completion. Black ticks are joins to other clips, "
-        f"blue is where the hands stop, red where the music has beats, by chord change. {_chosen(choice)}",
+        "whose numbers stand below, blue is where the hands stop, red where the music has beats, by chord change. "
+        f"{_chosen(choice)}",
         f"The paper says “several” paths; here {BEST_PATHS} at most.",
     )
     return (found,)

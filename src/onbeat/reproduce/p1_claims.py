@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from onbeat.reproduce.p1_dances import Danced
 from onbeat.reproduce.p1_songs import Tune
 from onbeat.reproduce.p1_tables import Dances, median, shown, tracked
 from onbeat.reproduce.result import Claim
+from onbeat.reproduce.shares import by_chance, counted, most
 
 CLEAR = 3.0
 """Deviations above chance from which on stops follow the beats."""
-
-RARE = 0.05
-"""How often chance may do as well at most where a claim is said to hold."""
 
 
 def claims(tunes: Sequence[Tune], dances: Dances) -> tuple[Claim, ...]:
@@ -32,8 +29,9 @@ def _tracking(tunes: Sequence[Tune]) -> Claim:
     others = f" The true beats of {len(tunes) - len(known)} more are not known." if len(known) < len(tunes) else ""
     return Claim(
         said,
-        published > len(known) / 2,
-        f"Heard as published, {published} of {len(known)} are tracked; by onbeat, {ours}.{others}",
+        most(published, len(known)),
+        f"Heard as published, {counted(published, len(known))} are tracked; by onbeat, {ours}.{others}",
+        ("Table I",),
     )
 
 
@@ -46,6 +44,7 @@ def _matching(dances: Dances) -> Claim:
         f"As published, {shown(recall, 'r')} of the beats have a stop within 100 ms, {shown(above, '_z')} deviations "
         f"above beats moved at random; of a random walk's, {chance} have. By onbeat, "
         f"{shown(median(dances['ours'], 'recall100'), 'r')}.",
+        ("Sec. VI, rhythm",),
     )
 
 
@@ -61,6 +60,7 @@ def _following(dances: Dances) -> Claim:
         "little of it would be seen. Eq. 12 as printed sums products of what is never negative, so that of two paths "
         "the one of more movement wins in soft music, too; with the music's intensity counted from its mean, a "
         f"correlation as the text calls it, the same search reaches {shown(centred, 'r')}.",
+        ("Sec. VI, intensity",),
     )
 
 
@@ -68,31 +68,14 @@ def _needed(dances: Dances) -> Claim:
     pairs = list(zip(dances["published"], dances["published rhythm"], strict=True))
     more, ours_more = _more(pairs), _more(list(zip(dances["ours"], dances["ours rhythm"], strict=True)))
     centred = _more(list(zip(dances["published centred"], dances["published rhythm"], strict=True)))
-    told = [shown(median(dances[name], "intensity_pearson"), "r") for name in ("published", "published rhythm")]
-    ours = [shown(median(dances[name], "intensity_pearson"), "r") for name in ("ours", "ours rhythm")]
     return Claim(
         "With the intensity component it is followed better than with rhythm alone.",
-        _oftener(more, len(pairs)),
-        f"As published, in {more} of {len(pairs)} songs (median {told[0]} with it, {told[1]} without); with Eq. 12 "
-        f"counted from the mean, in {centred}; by onbeat, in {ours_more} ({ours[0]} and {ours[1]}). Chance alone "
-        f"has {more} or more of {len(pairs)} with {by_chance(more, len(pairs)):.0%}.",
+        most(more, len(pairs)),
+        f"As published, in {more} of {len(pairs)} songs; by the toss of a coin so many or more are with "
+        f"{by_chance(more, len(pairs)):.0%}. With Eq. 12 counted from the mean, in {centred}; by onbeat, in "
+        f"{ours_more}.",
+        ("Sec. VI, intensity",),
     )
-
-
-def by_chance(more: int, songs: int) -> float:
-    """How often so many songs or more come out better if each is better or worse by the toss of a coin.
-
-    >>> by_chance(2, 3), by_chance(6, 6)
-    (0.5, 0.015625)
-    """
-    return sum(math.comb(songs, k) for k in range(more, songs + 1)) / 2**songs
-
-
-def _oftener(more: int, songs: int) -> bool | None:
-    """Whether it is better in most songs; None where so few songs do not tell it from chance."""
-    if more <= songs / 2:
-        return False
-    return True if by_chance(more, songs) < RARE else None
 
 
 def _more(pairs: Sequence[tuple[Danced, Danced]]) -> int:

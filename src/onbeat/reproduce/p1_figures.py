@@ -73,7 +73,7 @@ def matched(beats: Times, stops: Times) -> Bools:
 
 def matching_figure(rows: list[tuple[str, Danced]], start: float) -> bytes:
     """Fig. 7: the music's beat component and the motion's keyframe component of a dance, on one clock."""
-    figure = new_figure((9.6, 2.2 * len(rows) + 0.9))
+    figure = new_figure((9.6, 2.2 * len(rows) + 0.4))
     lines = figure.subplots(len(rows), 1, sharex=True, squeeze=False)[:, 0]
     bare(lines)
     for axes, (name, danced) in zip(lines, rows, strict=True):
@@ -86,7 +86,7 @@ def matching_figure(rows: list[tuple[str, Danced]], start: float) -> bytes:
         lines[0].plot([], [], "v", color=BEAT, label="beat with a stop")[0],
         lines[0].plot([], [], "v", color=BEAT, mfc="white", label="beat without")[0],
     ]
-    figure.legend(handles=marks, loc="outside lower center", ncols=2, frameon=False)
+    figure.legend(handles=marks, loc="outside lower center", ncols=4, frameon=False, fontsize=8.5, columnspacing=1.4)
     return figure_bytes(figure, "svg")
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from onbeat._shapes import Ints
+from onbeat._shapes import Array, Ints
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
 from onbeat.reproduce.p1_choice import Choice
@@ -18,6 +18,10 @@ from onbeat.viewer.keypose_poses import pose_pictures, poses_at
 BEAT, STOP, INK, SOFT, FAINT, CHOSEN, NEAR = (
     "#c43d52", "#2f5fb3", "#22262e", "#6b7785", "#c9ced6", "#1d7f4f", "#e0a02f",
 )  # fmt: skip
+NEAR_INK = "#9a6a0c"
+"""What is best by rhythm, as words: darker, for they are read."""
+LABEL, HIGH = 9.5, 0.5
+"""Points of the words of Fig. 5, and how high a stop is in a lane: above the clips' numbers of the lane before."""
 PICTURE = (132, 190)
 """Pixels of a picture of a pose."""
 POSES = 12
@@ -26,19 +30,20 @@ POSES = 12
 
 def choice_figure(choice: Choice, library: MoveLibrary) -> bytes:
     """Fig. 5: some paths over the next seconds with their stops, and Eqs. 11 and 12 of all of them."""
-    figure = new_figure((10.4, 4.8))
-    left, right = figure.subplots(1, 2, width_ratios=(1.55, 1))
+    figure = new_figure((10.4, 1.4 + 0.56 * (len(shown_paths(choice)) + 1)))
+    left, right = figure.subplots(1, 2, width_ratios=(1.8, 1))
     bare((left, right))
     _lanes(left, choice, library)
     others = np.ones(len(choice.paths), bool)
     others[: choice.best] = False
-    right.plot(choice.rhythm[others], choice.intensity[others], ".", ms=3, color=FAINT, label="other paths")
+    right.plot(choice.rhythm[others], choice.intensity[others], ".", ms=4, color=FAINT, label="other paths")
     best = slice(0, choice.best)
-    right.plot(choice.rhythm[best], choice.intensity[best], "o", ms=5, color=NEAR, label="best by rhythm (BP)")
+    right.plot(choice.rhythm[best], choice.intensity[best], "o", ms=6, color=NEAR, label="best by rhythm (BP)")
     at = choice.rhythm[choice.chosen], choice.intensity[choice.chosen]
-    right.plot(*at, "*", ms=13, color=CHOSEN, mec="white", label="danced: of these the most intense")
-    right.set(xlabel="Eq. 11: stops on beats", ylabel="Eq. 12: intensity of motion with the music’s")
-    right.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1)
+    right.plot(*at, "*", ms=14, color=CHOSEN, mec="white", label="danced: of these the most intense")
+    right.set_xlabel("Eq. 11: stops on beats", fontsize=LABEL)
+    right.set_ylabel("Eq. 12: intensity of motion with the music’s", fontsize=LABEL)
+    right.legend(frameon=False, fontsize=LABEL, loc="lower center", bbox_to_anchor=(0.45, 1.0), ncols=1)
     return figure_bytes(figure, "svg")
 
 
@@ -54,37 +59,35 @@ def _lanes(axes: Any, choice: Choice, library: MoveLibrary) -> None:
     ahead = np.arange(choice.paths.shape[1]) / GRID
     degree = choice.parts.beat[choice.begin : choice.begin + len(ahead)]
     beats = np.flatnonzero(degree > 0)
-    axes.vlines(beats / GRID, -len(shown) + 0.4, 1, color=BEAT, lw=0.8, alpha=0.35)
-    axes.vlines(beats / GRID, 1, 1 + 0.9 * degree[beats] / max(degree.max(initial=0.0), 1e-9), color=BEAT, lw=2.5)
-    axes.text(-0.06, 1.4, "$ASC_{beat}$", ha="right", va="center", color=BEAT, fontsize=9)
+    axes.vlines(beats / GRID, -len(shown) + 0.5, 1, color=BEAT, lw=0.8, alpha=0.35)
+    axes.vlines(beats / GRID, 1, 1 + 0.8 * degree[beats] / max(degree.max(initial=0.0), 1e-9), color=BEAT, lw=2.5)
+    axes.text(-0.06, 1.3, "$ASC_{beat}$", ha="right", va="center", color=BEAT, fontsize=LABEL)
     for lane, k in enumerate(shown.tolist()):
         _lane(axes, choice, library, lane, k, ahead)
-    axes.set(xlim=(0, ahead[-1]), ylim=(-len(shown) + 0.3, 2.05), yticks=(), xlabel="seconds ahead")
+    axes.set(xlim=(0, ahead[-1]), ylim=(-len(shown) + 0.4, 1.85), yticks=())
+    axes.set_xlabel("seconds ahead; below each path the numbers of its clips", fontsize=LABEL)
     axes.spines["left"].set_visible(False)
-    axes.text(1.01, 1.4, "Eq. 11   Eq. 12", transform=axes.get_yaxis_transform(), va="center", fontsize=8, color=SOFT)
+    axes.text(
+        1.01, 1.3, "Eq. 11  Eq. 12", transform=axes.get_yaxis_transform(), va="center", fontsize=LABEL, color=SOFT
+    )
 
 
-def _lane(axes: Any, choice: Choice, library: MoveLibrary, lane: int, k: int, ahead: np.ndarray) -> None:
+def _lane(axes: Any, choice: Choice, library: MoveLibrary, lane: int, k: int, ahead: Array) -> None:
     """One path: its stops as a curve, its joins as ticks, the clips it goes through, and what it is worth."""
     path, base = choice.paths[k], -lane
-    colour = CHOSEN if k == choice.chosen else NEAR if k < choice.best else SOFT
-    stop = choice.parts.stop[path] / 2.0 * 0.75
-    axes.fill_between(ahead, base, base + stop, color=STOP, alpha=0.45, lw=0)
+    colour = CHOSEN if k == choice.chosen else NEAR_INK if k < choice.best else SOFT
+    axes.fill_between(ahead, base, base + choice.parts.stop[path] / 2.0 * HIGH, color=STOP, alpha=0.45, lw=0)
     joins = np.flatnonzero(np.diff(path) != 1) + 1
     axes.plot([0, ahead[-1]], [base, base], color=colour, lw=3, solid_capstyle="butt")
     axes.plot(ahead[joins], np.full(len(joins), base), "|", color=INK, ms=11, mew=1.6)
     for begin, end in zip([0, *joins.tolist()], [*joins.tolist(), len(path)], strict=True):
-        if end - begin >= 0.45 * GRID:
-            clip = int(np.searchsorted(library.starts, path[begin], side="right")) - 1
-            axes.text(
-                ahead[begin] + 0.04, base - 0.12, f"clip {clip + 1}", fontsize=6.5, color=SOFT, va="top", ha="left"
-            )
+        clip = int(np.searchsorted(library.starts, path[begin], side="right"))  # counted from 1
+        middle = (begin + end - 1) / 2 / GRID
+        axes.text(middle, base - 0.13, str(clip), fontsize=LABEL, color=INK, va="top", ha="center")
     name = "danced" if k == choice.chosen else f"no. {k + 1}"
-    axes.text(-0.06, base + 0.1, name, ha="right", va="center", fontsize=8, color=colour)
-    axes.text(
-        1.01, base + 0.1, f"{choice.rhythm[k]:6.2f}   {choice.intensity[k]:6.1f}", transform=axes.get_yaxis_transform(),
-        va="center", fontsize=8, color=colour,
-    )  # fmt: skip
+    axes.text(-0.06, base + 0.1, name, ha="right", va="center", fontsize=LABEL, color=colour)
+    worth = f"{choice.rhythm[k]:6.2f}   {choice.intensity[k]:6.1f}"
+    axes.text(1.01, base + 0.1, worth, transform=axes.get_yaxis_transform(), va="center", fontsize=LABEL, color=colour)
 
 
 def dance_figure(danced: Danced, first: int) -> bytes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -202,23 +202,26 @@ def _figure_4(seen: Seen) -> FigureResult:
     )
 
 
-def _percents(values: Array) -> str:
-    return ", ".join(f"{value:.0%}" for value in values.tolist())
+def _percents(values: Array) -> tuple[str, ...]:
+    return tuple(f"{value:.0%}" for value in values.tolist())
 
 
 def _layers(seen: Seen) -> TableResult:
     """What is left of details and of the rest."""
+    speeds = [f"{speed:g}×" for speed in seen.first.takes.speeds[1:]]
     rows = list[Row]()
     for place, one in enumerate(seen.every):
-        control = _percents(detail_left(seen.controls[place])[1:]) if seen.controls else "–"
-        coarse, detail = coarse_left(one)[1:], detail_left(one)[1:]
-        rows.append(Row(one.takes.dancer, "attenuated", _percents(detail), "", (_percents(coarse), control)))
-    speeds = " and ".join(f"{speed:g}×" for speed in seen.first.takes.speeds[1:])
+        control = _percents(detail_left(seen.controls[place])[1:]) if seen.controls else ("–",) * len(speeds)
+        first, *details = _percents(detail_left(one)[1:])
+        rows.append(
+            Row(one.takes.dancer, "attenuated", first, "", (*details, *_percents(coarse_left(one)[1:]), *control))
+        )
+    heads = [f"{words}, {speed}" for words in ("ours: details", "the rest", "control: details") for speed in speeds]
     return TableResult(
         "Insight 1",
-        f"What is left at {speeds} of the layers, as root mean square of all joints of the upper body",
+        "What is left of the layers in faster music, as root mean square of all joints of the upper body",
         tuple(rows),
-        ("dancer", "paper", "ours: details", "the rest", "control: details", ""),
+        ("dancer", "paper", *heads, ""),
         "Details are the layers with knots on quarter beats and finer, the rest those on beats and half beats. The "
         "paper shows this in curves and gives no number.",
     )
@@ -243,9 +246,3 @@ def _valleys(seen: Seen) -> TableResult:
         "moved along the dance by a random amount; “variance there” is that of all takes at keyposes, divided by that "
         "at other times.",
     )
-
-
-def spread(values: Sequence[float]) -> str:
-    """From the least to the most, in per cent."""
-    low, high = min(values), max(values)
-    return f"{low:.0%}" if f"{low:.0%}" == f"{high:.0%}" else f"{low:.0%} to {high:.0%}"

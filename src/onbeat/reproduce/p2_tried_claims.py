@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from onbeat.reproduce.p2_methods import OURS, PUBLISHED, SLACK, SPEEDS
 from onbeat.reproduce.p2_stage import margins
-from onbeat.reproduce.p2_tried import Tried
+from onbeat.reproduce.p2_tried import EXPERIMENTS, WISHES, Tried
 from onbeat.reproduce.result import Claim
 from onbeat.retime.measures import Measures
 
 FILTER = "pollard2002"
+TRIALS = tuple(f"{EXPERIMENTS[speed][1]}, {wish}" for speed in SPEEDS for wish in WISHES.values())
+"""The tables of all methods: at both speeds, both wishes."""
 SAID = (
     "The method keeps the limits of angle and of angular velocity (Eqs. 13 and 14)",
     "The method keeps more details than Pollard's filter (Fig. 8, b.1)",
@@ -25,7 +29,7 @@ SAID = (
 def tried_claims(found: Tried | None, why: str = "") -> tuple[Claim, ...]:
     """The claims of Sec. IV; ``why`` says why they cannot be told where nothing could be tried."""
     if found is None:
-        return tuple(Claim(said, None, f"not tried: {why}") for said in SAID)
+        return tuple(Claim(said, None, f"Not tried: {why}.") for said in SAID)
     return (
         _limits(found),
         _details(found),
@@ -36,71 +40,75 @@ def tried_claims(found: Tried | None, why: str = "") -> tuple[Claim, ...]:
     )
 
 
-def _of(found: Tried, method: str, *, captured: bool = True) -> Measures:
-    """At the original speed, as captured unless it is told otherwise: the setting of Fig. 8."""
-    return found.asked[captured, SPEEDS[0]].scaled[method].measures
-
-
-def _degrees(radians: float) -> str:
-    return f"{np.degrees(radians):.1f}°"
+def _of(found: Tried, method: str) -> Measures:
+    """At the original speed, as captured: the setting of Fig. 8."""
+    return found.asked[True, SPEEDS[0]].scaled[method].measures
 
 
 def _limits(found: Tried) -> Claim:
     over = {
         method: [sum(one.scaled[method].measures.violations) for one in found.asked.values()]
-        for method in (PUBLISHED, OURS, FILTER)
+        for method in (PUBLISHED, FILTER, OURS)
     }
-    told = ", ".join(f"{method} {', '.join(map(str, counts))}" for method, counts in over.items())
-    where = "as captured at 1.0× and 1.2×, as planned at 1.0× and 1.2×, looked at 1,000 times a second"
-    return Claim(SAID[0], not any(over[PUBLISHED]), f"joints past a limit, {where}: {told}")
+    told = ", ".join(f"{_joints(counts)} by {method}" for method, counts in over.items())
+    return Claim(SAID[0], not any(over[PUBLISHED]), f"Past a limit in {len(found.asked)} trials: {told}.", TRIALS)
+
+
+def _joints(counts: Sequence[int]) -> str:
+    """How many joints, from the least to the most of some trials."""
+    low, high = min(counts), max(counts)
+    if not high:
+        return "no joint"
+    return f"{high} joint{'s' if high > 1 else ''}" if low == high else f"{low} to {high} joints"
 
 
 def _details(found: Tried) -> Claim:
     asked = found.asked[True, SPEEDS[0]]
-    own, other, ours = (asked.scaled[method].detail for method in (PUBLISHED, FILTER, OURS))
+    own, other = (asked.scaled[method].detail for method in (PUBLISHED, FILTER))
     if not np.isfinite([own, other]).all():
-        return Claim(SAID[1], None, "there is no detail away from limits")
-    told = (
-        f"of the detail away from limits {PUBLISHED} keeps {own:.0%}, {FILTER} {other:.0%} with the stiffness used "
-        f"here, which errs least, and {asked.slack:.0%} with {SLACK:.0f} 1/s², {OURS} {ours:.0%}; the paper does not "
-        "tell its gains"
-    )
+        return Claim(SAID[1], None, "There is no detail away from limits.")
     more = own > other, own > asked.slack
-    return Claim(SAID[1], more[0] if more[0] == more[1] else None, told + ", and they decide it" * (more[0] != more[1]))
+    told = (
+        f"{PUBLISHED} keeps {own:.0%} of the detail away from limits, {FILTER} {other:.0%} with the stiffness that "
+        f"errs least and {asked.slack:.0%} with {SLACK:.0f} 1/s². The paper does not tell its gains"
+    )
+    decides = "" if more[0] == more[1] else ", and they decide it"
+    return Claim(SAID[1], more[0] if more[0] == more[1] else None, f"{told}{decides}.", TRIALS[:1])
 
 
 def _plateaus(found: Tried) -> Claim:
-    each = {name: 60 * float(_of(found, name).plateaus.mean()) for name in (PUBLISHED, FILTER, OURS)}
-    told = ", ".join(f"{name} {seconds:.1f}" for name, seconds in each.items())
-    return Claim(SAID[2], each[PUBLISHED] < 0.5 * each[FILTER], f"seconds a minute at full speed: {told}")
+    each = {name: 60 * float(_of(found, name).plateaus.mean()) for name in (PUBLISHED, FILTER)}
+    told = f"Joints run at full speed for {each[PUBLISHED]:.1f} s of a minute by {PUBLISHED}, {each[FILTER]:.1f} s by "
+    return Claim(SAID[2], each[PUBLISHED] < 0.5 * each[FILTER], f"{told}{FILTER}.", TRIALS[:1])
 
 
 def _keyposes(found: Tried) -> Claim:
-    worst = {name: float(np.degrees(_of(found, name).worst_keypose)) for name in (PUBLISHED, FILTER, OURS)}
+    worst = {name: float(np.degrees(_of(found, name).worst_keypose)) for name in (PUBLISHED, FILTER)}
     mean = {name: float(np.degrees(_of(found, name).keypose_errors.mean())) for name in worst}
-    told = ", ".join(f"{name} {worst[name]:.1f}° and {mean[name]:.1f}°" for name in worst)
+    told = " and ".join(f"{worst[name]:.1f}° ({name})" for name in worst)
+    means = " and ".join(f"{mean[name]:.1f}°" for name in worst)
     holds = worst[PUBLISHED] < worst[FILTER] and mean[PUBLISHED] < mean[FILTER]
-    planned = ", ".join(f"{name} {_degrees(_of(found, name, captured=False).worst_keypose)}" for name in worst)
     why = "" if holds else ". A layer is lowered for all of a segment between beats, and takes its keyposes along"
-    found_so = f"off at the worst keypose in reach, and on the mean of all: {told}; the worst as planned: {planned}"
-    return Claim(SAID[3], holds, found_so + why)
+    found_so = f"The worst keypose that is in reach is off by {told}, the mean of all by {means}"
+    return Claim(SAID[3], holds, f"{found_so}{why}.", TRIALS[:2])
 
 
 def _accelerations(found: Tried) -> Claim:
-    each = {name: float(_of(found, name).peak_acceleration.mean()) for name in (PUBLISHED, FILTER, OURS)}
-    told = ", ".join(f"{name} {peak:.0f} rad/s²" for name, peak in each.items())
-    return Claim(SAID[4], each[PUBLISHED] < each[FILTER], f"mean of the joints' peaks: {told}")
+    each = {name: float(_of(found, name).peak_acceleration.mean()) for name in (PUBLISHED, FILTER)}
+    told = " and ".join(f"{peak:.0f} rad/s² by {name}" for name, peak in each.items())
+    return Claim(SAID[4], each[PUBLISHED] < each[FILTER], f"The joints' peaks are {told}, in the mean.", TRIALS[:1])
 
 
 def _robot(found: Tried, place: int) -> Claim:
     said, speed = SAID[5 + place], SPEEDS[place]
     if speed not in found.danced:
-        return Claim(said, None, f"not simulated: {found.why}")
+        return Claim(said, None, f"Not simulated: {found.why}.")
     own, ours = found.danced[speed][:2]
-    told = "; ".join(
-        f"{one.method} {one.fell}, its planned zero-moment point inside {one.document.zmp.inside:.1%} of the time, the "
-        f"measured one clear of the soles' edge {np.mean(margins(found.robot, one) > 0):.1%}"
-        for one in (own, ours)
+    clear = float(np.mean(margins(found.robot, own) > 0))
+    told = (
+        f"By {own.method} {own.fell}, its planned zero-moment point inside {own.document.zmp.inside:.1%} of the time "
+        f"and the measured one clear of the soles' edge {clear:.1%}; by {ours.method} {ours.fell}. On another robot, "
+        "in simulation."
     )
     good = own.trial.upright and (speed == SPEEDS[0] or own.document.zmp.inside == 1.0)
-    return Claim(said, good, f"{told}. On another robot, in simulation")
+    return Claim(said, good, told, (f"{EXPERIMENTS[speed][0]}, numbers",))

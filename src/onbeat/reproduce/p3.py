@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 
 from onbeat.errors import OnbeatError
@@ -13,7 +14,7 @@ from onbeat.reproduce.data import Data
 from onbeat.reproduce.p3_dances import Danced, embedded_dances, marked_dances
 from onbeat.reproduce.p3_energy_figures import figure_3, figure_6, roughness, weight_claim
 from onbeat.reproduce.p3_extraction import LEARNED, extract, extraction_claims, table_1
-from onbeat.reproduce.p3_files import segments_in, takes_of
+from onbeat.reproduce.p3_files import UntoldWarning, one_dance, segments_in, takes_of, untold
 from onbeat.reproduce.p3_lowdim import Spaces, lowdim_claims
 from onbeat.reproduce.p3_lowdim_parts import lowdim_parts
 from onbeat.reproduce.p3_people import of_dances, of_takes
@@ -117,8 +118,12 @@ def _of_the_troupe(data: Data, step: Step) -> tuple[Told, list[Made]]:
 
 
 def _of_files(data: Data, step: Step) -> tuple[Told, list[Made]]:
+    step(0.0, "reading takes")
     takes = takes_of(data)
     marked, people, segments = marked_dances(data), of_takes(takes), segments_in(takes)
+    why = untold(one_dance(takes))
+    if why:
+        warnings.warn(UntoldWarning(why), stacklevel=2)
     made: list[Made] = []
     differs = ["The dances, bodies and people are others, and so are all numbers that depend on them."]
     if marked:
@@ -126,7 +131,8 @@ def _of_files(data: Data, step: Step) -> tuple[Told, list[Made]]:
     else:
         differs.append("No file has marked keyposes beside it (NAME.keyposes.csv): no Table 1, no Figs. 3 to 6.")
     step(0.5, "few dimensions")
-    made.append(_lowdim(people.spaces(), data.seed, numbered=False))
+    made.append(_left_open(_lowdim(people.spaces(), data.seed, numbered=False), why))
+    differs += [f"There are {why}."] if why else []
     step(0.8, "recognising")
     if segments is not None:
         table, claims = known_in_files(segments, data.seed)
@@ -136,6 +142,14 @@ def _of_files(data: Data, step: Step) -> tuple[Told, list[Made]]:
     named = ", ".join(people.names)
     ours = f"{len(takes)} files, {len(marked)} of them with marked keyposes; for few dimensions those of {named}."
     return (ours, tuple(differs)), made
+
+
+def _left_open(made: Made, why: str) -> Made:
+    """No claim is told where ``why`` says that these are not the paper's keyposes."""
+    if not why:
+        return made
+    note = " But these keyposes are on no beats that were told."
+    return replace(made, claims=tuple(replace(one, holds=None, found=one.found + note) for one in made.claims))
 
 
 def _extraction(dances: list[Danced], step: Step) -> Made:

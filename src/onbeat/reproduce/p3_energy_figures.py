@@ -205,6 +205,7 @@ def weight_claim(found: Roughness) -> Claim:
     return Claim(
         "Weights matter little; by mass the energy is roughly the same, and noisier.",
         alike > 0.8 and rougher > 1.0,
-        f"as published, correlation {alike:.2f} at least; mean second difference by mass, of that with all alike: "
-        f"{own['world'][1]:.2f} global, {own['local'][1]:.2f} local",
+        f"As published they correlate by {alike:.2f} at least; by mass the mean second difference is "
+        f"{own['world'][1]:.2f} times that with all alike (global), {own['local'][1]:.2f} times (local).",
+        ("Fig. 6",),
     )

@@ -52,6 +52,26 @@ def takes_of(data: Data) -> list[Take]:
     return found
 
 
+class UntoldWarning(UserWarning):
+    """Nobody told on which beats files are danced, nor where their keyposes are."""
+
+
+def untold(takes: list[Take]) -> str:
+    """Why the keyposes of some takes are not the paper's, for there are neither beats nor marks; else empty."""
+    without = [
+        take.path.name
+        for take in takes
+        if beats_beside(take.path) is None and not take.path.with_name(take.path.stem + MARKS).is_file()
+    ]
+    if not without:
+        return ""
+    named = without[0] + (f" and {len(without) - 1} more" if len(without) > 1 else "")
+    return (
+        f"no beats beside {named} (NAME.beats, a second a line, or the song, NAME.wav), and no marked keyposes "
+        f"(NAME{MARKS}): keyposes are where the body rests, and what is said of keyposes cannot be told"
+    )
+
+
 def one_dance(takes: list[Take]) -> list[Take]:
     """The first take of each person of the task that most people dance, eight of them at most."""
     first = {(take.task, take.person): take for take in reversed(takes)}

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from onbeat._shapes import Array
 from onbeat.recognition.hard_troupe import hard_pieces
 from onbeat.recognition.open_set import KNOWN_EPSILON, NEW_EPSILON, OpenSet, learn
 from onbeat.recognition.protocols import FACTORS, PAPER, Answer, Learner, PaperTables, Score, known_set, paper_tables
@@ -20,6 +21,7 @@ from onbeat.recognition.segments import Segments
 from onbeat.recognition.tensor import TensorModel
 from onbeat.reproduce.paper import Step
 from onbeat.reproduce.result import Claim, Row, TableResult
+from onbeat.reproduce.shares import spread
 
 HARDNESS = (0.0, 0.25, 0.5, 1.0)
 """How unlike themselves dancers are from cycle to cycle: each number of their style varies by as much of its spread
@@ -137,27 +139,31 @@ def _told(scores: Sequence[Score]) -> str:
 
 
 CLAIMED = (
-    ("The tensor tells tasks that it knows", ("known_task",), "", ""),
+    ("The tensor tells tasks that it knows", ("known_task",), "", "", ("Table 3",)),
     (
         "It tells people whom it knows",
         ("known_person",),
         "",
-        "; how alike the cycles of the paper's dancers are is not known",
+        " How alike the cycles of the paper's dancers are is not known.",
+        ("Table 3",),
     ),
     (
         "It finds tasks and people that are new",
         ("new_task", "new_person"),
-        "; but most of what is known is taken for new, too: see the next",
+        " But most of what is known is taken for new, too: see the next.",
         "",
+        ("Table 4",),
     ),
     (
         "It tells known tasks, of known people and of new ones",
         ("task_of_known_person", "task_of_new_person"),
         "",
-        "; distances vary by more than 12% either way from cycle to cycle, and most of what is known is turned away",
+        " Distances vary by more than 12% either way from cycle to cycle, and most of what is known is turned away.",
+        ("Table 5",),
     ),
 )
-"""What the paper says, the rows that decide it, what is said of it where it holds, and where it does not always."""
+"""What the paper says, the rows that decide it, what is said of it where it holds, and where it does not always, and
+the table of all."""
 
 
 def recognition_claims(found: Found) -> tuple[Claim, ...]:
@@ -165,20 +171,29 @@ def recognition_claims(found: Found) -> tuple[Claim, ...]:
     return tuple(_claim(found, *one) for one in CLAIMED)
 
 
-def _claim(found: Found, words: str, fields: Sequence[str], more: str, why: str) -> Claim:
+def _claim(found: Found, words: str, fields: Sequence[str], more: str, why: str, see: tuple[str, ...]) -> Claim:
     paper = [PAPER[field] for field in fields]
     shares = np.array([[[_mean(pairs, which, f) for f in fields] for pairs in found.values()] for which in (0, 1)])
     holds = (shares[0] >= [right / of - NEAR for right, of in paper]).all(axis=1)
-    told = "; ".join(
-        f"{name} {', '.join('/'.join(f'{share:.0%}' for share in row) for row in own)}"
-        for name, own in zip(("as published", "learned"), shares, strict=True)
-    )
+    learned = spread(shares[1].ravel().tolist())
+    told = f"As published {_by_dancers(shares[0], list(found), holds.tolist())}; learned {learned}."
     return Claim(
         f"{words} ({' and '.join(f'{right} of {of}' for right, of in paper)}).",
         bool(holds[0]) if (holds == holds[0]).all() else None,
-        f"{told}, for dancers unlike themselves by {', '.join(f'{hard:g}' for hard in found)}"
-        + (more if holds.all() else why),
+        told + (more if holds.all() else why),
+        see,
     )
+
+
+def _by_dancers(shares: Array, hardness: Sequence[float], holds: Sequence[bool]) -> str:
+    """How much is right (H, fields), and for which dancers that is as much as in the paper."""
+    told = f"{spread(shares.ravel().tolist())} are right"
+    if all(holds) or not any(holds):
+        return f"{told}, however unlike themselves dancers are"
+    good, bad = (
+        " and ".join(f"{h:g}" for h, held in zip(hardness, holds, strict=True) if held is w) for w in (True, False)
+    )
+    return f"{told}: about as in the paper for dancers unlike themselves by {good}, not by {bad}"
 
 
 def _mean(pairs: Sequence[tuple[PaperTables, PaperTables]], which: int, field: str) -> float:
@@ -201,7 +216,7 @@ def known_in_files(segments: Segments, seed: int) -> tuple[TableResult, tuple[Cl
         rows.append(Row(factor, f"{right} / {of} · {right / of:.0%}", literal, "other takes of the same", (learned,)))
         said = f"{CLAIMED[FACTORS.index(factor)][0]} ({right} of {of})."
         holds = scores[0][factor].share >= right / of - NEAR
-        claims.append(Claim(said, holds, f"as published {literal}; learned {learned}"))
+        claims.append(Claim(said, holds, f"As published {literal}; learned {learned}.", ("Table 3",)))
     table = TableResult(
         "Table 3",
         "Known tasks by known people",

@@ -151,13 +151,15 @@ def threshold_claims(sweeps: Sweeps) -> tuple[Claim, ...]:
         Claim(
             "Precision and recall are level over a large part of T1 and T2 from 0 to 10.",
             min(share.values()) > 0.5,
-            f"as published over the last {share['T1']:.0%} of T1's range and {share['T2']:.0%} of T2's. Where T1 is "
+            f"As published over the last {share['T1']:.0%} of T1's range and {share['T2']:.0%} of T2's. Where T1 is "
             "large every minimum near a beat passes: the beats do the work then, at a precision of "
-            f"{curves['T1'][-1, 0]:.0%}, and {sweeps.floor:.0%} for taking all beats",
+            f"{curves['T1'][-1, 0]:.0%}, and {sweeps.floor:.0%} for taking all beats.",
+            ("Fig. 4", "Fig. 5"),
         ),
         Claim(
             "Even the worst thresholds give a precision and a recall of 50%.",
             worst >= 0.5,
-            f"the worst is a {where} of {worst:.0%}, with {'T2' if 'T1' in where else 'T1'} where it was learned",
+            f"The worst is a {where} of {worst:.0%}, with {'T2' if 'T1' in where else 'T1'} where it was learned.",
+            ("Fig. 4" if "T1" in where else "Fig. 5",),
         ),
     )

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from onbeat.reproduce.result import Claim, FigureResult, PaperResult, Part, TableResult, tally
+from onbeat.reproduce.result import Claim, FigureResult, PaperResult, Part, TableResult, counts, worded
 from onbeat.reproduce.style import CSS
 
 _VERDICTS = {True: ("yes", "holds here"), False: ("no", "does not hold"), None: ("open", "cannot be told")}
@@ -17,8 +17,10 @@ def paper_page(result: PaperResult, keys: Sequence[str] = ()) -> bytes:
     """The page of one paper; ``keys`` are the papers whose pages lie beside it."""
     body = [
         _links(keys, result.key),
-        f"<h1>{escape(result.title)}</h1>",
+        f"<h1><b>{escape(result.key)}</b>{escape(result.title)}</h1>",
         f'<p class="soft">{escape(result.citation)}</p>',
+        _verdicts(result.claims),
+        _contents(result),
         _data(result),
         _claims(result.claims),
         *(_part(part) for part in result.parts),
@@ -38,8 +40,9 @@ def index_page(results: Sequence[PaperResult]) -> bytes:
         body += [
             f'<h2><b>{escape(result.key)}</b><a href="{page_name(result.key)}">{escape(result.title)}</a></h2>',
             f'<p class="soft">{escape(result.citation)}</p>',
-            _claims(result.claims, heading=False),
-            f"<p>{_contents(result)}</p>",
+            _verdicts(result.claims),
+            _claims(result.claims, page_name(result.key)),
+            _contents(result, page_name(result.key)),
         ]
     body.append('<p class="soft">All numbers, for programs: <a href="results.json">results.json</a>.</p>')
     return _html("The papers, done again", "en", body)
@@ -81,10 +84,23 @@ def _links(keys: Sequence[str], own: str) -> str:
     return f'<nav aria-label="Papers"><a href="index.html">All papers</a>{others}</nav>' if keys else ""
 
 
-def _contents(result: PaperResult) -> str:
-    return " · ".join(
-        f'<a href="{page_name(result.key)}#{anchor(part.number)}">{escape(part.number)}</a>' for part in result.parts
+def _verdicts(claims: Sequence[Claim]) -> str:
+    """How many claims hold, how many do not, and how many cannot be told, in one look."""
+    if not claims:
+        return ""
+    said = "".join(
+        f'<li class="{_VERDICTS[holds][0]}"><b>{count}</b> {worded(holds, count)}</li>'
+        for holds, count in counts(claims).items()
     )
+    every = "1 claim:" if len(claims) == 1 else f"{len(claims)} claims:"
+    return f'<ul class="tally" aria-label="What the paper claims"><li class="all">{every}</li>{said}</ul>'
+
+
+def _contents(result: PaperResult, page: str = "") -> str:
+    """Links to every table and figure, on the page itself or from another."""
+    claims = f'<a href="{page}#claims">Claims</a>' if result.claims else ""
+    parts = "".join(f'<a href="{page}#{anchor(part.number)}">{escape(part.number)}</a>' for part in result.parts)
+    return f'<nav class="parts" aria-label="Tables and figures of {escape(result.key)}">{claims}{parts}</nav>'
 
 
 def _data(result: PaperResult) -> str:
@@ -98,16 +114,19 @@ def _data(result: PaperResult) -> str:
     )
 
 
-def _claims(claims: Sequence[Claim], *, heading: bool = True) -> str:
+def _claims(claims: Sequence[Claim], page: str = "") -> str:
+    """The claims, with links to where all of it stands: on ``page``, or below on their own, under a heading."""
     if not claims:
         return ""
-    lines = [f"<h2>What the paper says, and what comes out: {escape(tally(claims))}</h2>" if heading else ""]
-    lines.append('<ul class="claims">')
-    for claim in claims:
-        kind, verdict = _VERDICTS[claim.holds]
-        told = f"<div>{escape(claim.said)}<p>{escape(claim.found)}</p></div>"
-        lines.append(f'<li><span class="verdict {kind}">{verdict}</span>{told}</li>')
-    return "\n".join([*lines, "</ul>"])
+    head = "" if page else '<h2 id="claims">What the paper says, and what comes out</h2>'
+    return "\n".join([head, '<ul class="claims">', *(_claim(claim, page) for claim in claims), "</ul>"])
+
+
+def _claim(claim: Claim, page: str) -> str:
+    kind, verdict = _VERDICTS[claim.holds]
+    see = "".join(f' <a href="{page}#{anchor(number)}">{escape(number)}</a>' for number in claim.see)
+    told = f"<div>{escape(claim.said)}<p>{escape(claim.found)}{see}</p></div>"
+    return f'<li><span class="verdict {kind}">{verdict}</span>{told}</li>'
 
 
 def _part(part: Part) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from onbeat.errors import OnbeatError
 
@@ -102,12 +102,23 @@ class Claim:
     ----------
     said : the claim, in our own words.
     holds : whether it comes out here; None where these data cannot tell.
-    found : the figures that decide it.
+    found : what decides it, a sentence with few figures.
+    see : numbers of the tables and figures that have all of them.
     """
 
     said: str
     holds: bool | None
     found: str
+    see: tuple[str, ...] = ()
+
+    @property
+    def told(self) -> str:
+        """What decides it, and where all of it is.
+
+        >>> Claim("so", True, "97% are right", ("Table 3",)).told
+        '97% are right (Table 3)'
+        """
+        return f"{self.found} ({'; '.join(self.see)})" if self.see else self.found
 
 
 Part = TableResult | FigureResult
@@ -125,7 +136,7 @@ class PaperResult:
     paper_data : what the paper's experiments were done on.
     our_data : what these were done on.
     differs : what of the data, the body or the method is not the paper's, a sentence each; stands at the page's top.
-    claims : what the paper claims, and whether it holds here.
+    claims : what the paper claims, and whether it holds here; what they point to and is not there is left out.
     parts : tables and figures, in the paper's order, no two of one number.
     files : other files to be written beside the page, by name: pages to run a study with, tables to compute with.
 
@@ -149,15 +160,39 @@ class PaperResult:
         numbers = [part.number for part in self.parts]
         if twice := sorted({number for number in numbers if numbers.count(number) > 1}):
             raise OnbeatError(f"{self.key}: more than one {', '.join(twice)}; give each part a number of its own")
+        object.__setattr__(self, "claims", tuple(_leading(claim, numbers) for claim in self.claims))
+
+
+def _leading(claim: Claim, numbers: Sequence[str]) -> Claim:
+    """A claim that points only to parts that are there: of some data a figure cannot be drawn."""
+    return replace(claim, see=tuple(number for number in claim.see if number in numbers))
+
+
+VERDICTS = {True: "hold", False: "do not hold", None: "cannot be told"}
+"""What is said of claims, by whether they hold."""
+
+
+def counts(claims: Sequence[Claim]) -> dict[bool | None, int]:
+    """How many claims hold, how many do not, and of how many it cannot be told, in this order."""
+    return {holds: sum(claim.holds is holds for claim in claims) for holds in VERDICTS}
 
 
 def tally(claims: Sequence[Claim]) -> str:
     """How many claims hold, in words.
 
     >>> tally([Claim("a", True, ""), Claim("b", None, "")])
-    '1 of 1 claims hold, 1 cannot be told with these data'
+    '2 claims: 1 holds, 0 do not hold, 1 cannot be told'
     """
-    told = [claim for claim in claims if claim.holds is not None]
-    held = sum(1 for claim in told if claim.holds)
-    open_ones = len(claims) - len(told)
-    return f"{held} of {len(told)} claims hold" + (f", {open_ones} cannot be told with these data" if open_ones else "")
+    told = [f"{count} {worded(holds, count)}" for holds, count in counts(claims).items()]
+    return f"{len(claims)} claim{'s' if len(claims) != 1 else ''}: {', '.join(told)}"
+
+
+def worded(holds: bool | None, count: int) -> str:
+    """The verdict on so many claims.
+
+    >>> worded(True, 1), worded(False, 1), worded(False, 2)
+    ('holds', 'does not hold', 'do not hold')
+    """
+    if count != 1:
+        return VERDICTS[holds]
+    return {True: "holds", False: "does not hold", None: "cannot be told"}[holds]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -11,7 +10,6 @@ from threadpoolctl import threadpool_limits
 
 from onbeat.errors import OnbeatError
 from onbeat.files import make_folder, write_atomically
-from onbeat.moves.lock import building
 from onbeat.reproduce.data import Data
 from onbeat.reproduce.document import drawing_name, results_document
 from onbeat.reproduce.page import index_page, page_name, paper_page
@@ -66,33 +64,13 @@ def reproduce_one(key: str, data: Data, step: Callable[[float, str], None]) -> P
         return paper(key).reproduce(data, step)
 
 
-@contextmanager
-def place_for(folder: str | Path, keys: Sequence[str]) -> Generator[None, None, None]:
-    """A folder into which results can be written, held while they are made: said before the work, not after it.
+def names_for(keys: Sequence[str]) -> list[str]:
+    """The files at the top of a folder of results of some papers.
 
-    It is made if it is not there, and taken away again if nothing came of it.
-
-    Raises
-    ------
-    OnbeatError
-        If it cannot be made or written, somebody else is at work in it, or a file to be written is a folder there.
+    >>> names_for(["P1"])
+    ['p1.html', 'results.json', 'index.html']
     """
-    place = Path(folder)
-    _refuse_a_file(place)
-    with building(place):
-        taken = [name for name in (*map(page_name, keys), RESULTS, INDEX) if (place / name).is_dir()]
-        if taken:
-            raise OnbeatError(f"cannot write {place / taken[0]}: a folder is there; choose another folder")
-        yield
-
-
-def _refuse_a_file(place: Path) -> None:
-    try:
-        there = next(one for one in (place, *place.absolute().parents) if one.exists())
-    except OSError as error:
-        raise OnbeatError(f"cannot write into {place}: {error.strerror or error}; choose another folder") from None
-    if not there.is_dir():
-        raise OnbeatError(f"cannot write into {place}: {there} is not a folder; choose another folder")
+    return [*map(page_name, keys), RESULTS, INDEX]
 
 
 def write_results(
