@@ -28,7 +28,7 @@ class ExportFormat(NamedTuple):
 
 
 FORMATS = (
-    ExportFormat("glb", ".glb", "GLB: Blender, Unity, the web"),
+    ExportFormat("glb", ".glb", "GLB: Blender, Unity, web"),
     ExportFormat("bvh", ".bvh", "BVH: any animation program"),
     ExportFormat(FILM, ".mp4", "MP4: a video with the song", module="av", extra="video"),
     ExportFormat("html", ".html", "HTML: the page with the song, to send to others"),
