@@ -51,8 +51,8 @@ def _figure_7(found: LowDimensional) -> FigureResult:
         figure_bytes(cluster_figure(found), "svg"),
         "The eight people's keyposes in their first three dimensions, in tight groups by their number in the dance; "
         "the poses of uniform sampling, which are not grouped as well.",
-        f"The same for {people_told(len(found.motions))}, the first dimension over the second and the third; colours "
-        "are numbers in the cycle, shapes are people.",
+        f"The same for {people_told(len(found.motions))}, the first dimension over the second and the third; groups "
+        "bear their numbers in the cycle, shapes are people.",
         f"Of the spread in three dimensions {keyposes:.0%} is between the numbers for keyposes, and "
         f"{min(uniform):.0%} to {max(uniform):.0%} for uniform sampling, by its phase.",
     )

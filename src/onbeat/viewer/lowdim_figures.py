@@ -39,7 +39,7 @@ def variance_figure(found: LowDimensional) -> Any:
 
 
 def cluster_figure(found: LowDimensional) -> Any:
-    """Figs. 7 and 8: the poses of both spaces in their first dimensions; colours are numbers, shapes are people."""
+    """Figs. 7, 8: the poses of both spaces in their first dimensions; groups bear their numbers, shapes are people."""
     pairs = _pairs(found)
     figure = new_figure((9.6, 4.3 * len(pairs) + 0.6))
     grid = figure.subplots(len(pairs), 2, squeeze=False)
@@ -49,6 +49,10 @@ def cluster_figure(found: LowDimensional) -> Any:
             for person, one in enumerate(found.taught):
                 colours = _numbers(found, one, name)
                 _drawn(axes, _places(found, one, name), colours, (first, second), MARKERS[person % len(MARKERS)])
+            for numbers, place in _labels(_middles(found, name)[:, [first, second]]):
+                axes.annotate(
+                    numbers, place, (0, 10), textcoords="offset points", ha="center", fontsize=8, color="#333b47"
+                )
             _named(axes, first, second)
         grid[0][column].set_title(f"{TITLES[name]}: {sum(len(one.keyposes) for one in found.taught)} poses")
     marks = [
@@ -129,6 +133,13 @@ def _numbers(found: LowDimensional, one: Taught, name: str) -> np.ndarray:
     rows, columns = linear_sum_assignment(cdist(own, first))
     numbers[rows] = columns
     return numbers
+
+
+def _middles(found: LowDimensional, name: str) -> np.ndarray:
+    """(K, 3) the middle of the poses of each number."""
+    places = np.concatenate([_places(found, one, name) for one in found.taught])
+    numbers = np.concatenate([_numbers(found, one, name) for one in found.taught])
+    return np.array([places[numbers == number].mean(axis=0) for number in np.unique(numbers)])
 
 
 def _drawn(
