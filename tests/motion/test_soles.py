@@ -12,6 +12,7 @@ from onbeat.examples.body import Build
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.kinematics import forward_kinematics
+from onbeat.motion.skeleton import Skeleton
 from onbeat.motion.soles import DEEPEST, FREE, on_soles, pressed
 
 SKELETON = Build(1.7).skeleton
@@ -87,3 +88,19 @@ def test_feet_move_smoothly_through_the_floor():
     free = np.linalg.norm(np.diff(forward_kinematics(SKELETON, poses, roots)[1][:, tip], axis=0), axis=1)
     assert steps.max() <= free.max() * 1.01
     assert np.abs(np.diff(steps)).max() < 0.05 * free.max()
+
+
+@pytest.mark.parametrize("angle", [-1.35, -1.5707963267948966, -1.8])
+def test_toes_that_point_straight_down_are_bent_forward_and_up(angle: float):
+    pose = posed(LeftToeBase=angle)
+    out = on_soles(BODY, pose, np.array([[0.0, 0.0, FLOOR - 0.03]]))
+    assert np.linalg.norm(out, axis=-1) == pytest.approx(np.ones(out.shape[:2]))
+    assert min(heights(out, -0.03).values()) >= -DEEPEST - 1e-9
+
+
+def test_toes_without_length_stay_as_they_are():
+    offsets = SKELETON.offsets.copy()
+    offsets[SKELETON.names.index("LeftToeEnd")] = 0.0
+    body = Body.of(Skeleton(SKELETON.names, SKELETON.parents, offsets))
+    out = on_soles(body, posed(), np.array([[0.0, 0.0, FLOOR - 0.1]]))
+    assert np.linalg.norm(out, axis=-1) == pytest.approx(np.ones(out.shape[:2]))

@@ -114,9 +114,11 @@ def test_a_job_is_ended_where_it_is_when_it_is_cancelled_and_the_next_begins(tmp
 
 
 def test_what_was_cancelled_or_failed_is_tried_again(tmp_path: Path):
+    (tmp_path / "hold").touch()
     with house(tmp_path) as client:
         for job in project(client)["jobs"]:
             client.post(f"/api/jobs/{job['id']}/cancel")
+        (tmp_path / "hold").unlink()
         bad = client.post("/api/songs?name=bad", content=b"sound").json()["id"]
         found = settled(client)
         assert (found["songs"][1]["state"], found["libraries"][0]["state"]) == ("failed", "cancelled")

@@ -56,7 +56,7 @@ def next_command(words: Sequence[str], song: bool, moves: bool, film: bool) -> s
     if not song:
         return "onbeat dance YOUR_SONG.mp3"
     more = "--moves YOUR_CLIPS/" if not moves else "--rhythm-only" if film else "--video"
-    return f"onbeat {shlex.join(words)} {more}"
+    return "onbeat dance --help" if more in words else f"onbeat {shlex.join(words)} {more}"
 
 
 def tell_left_out(library: MoveLibrary) -> None:

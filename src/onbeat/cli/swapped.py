@@ -25,7 +25,10 @@ def looks_like_motion(path: Path) -> bool:
     """Whether a path is named as motion files are, or is a folder of them, or a library."""
     if not path.is_dir():
         return path.suffix.lower() in _MOTION
-    return is_library(path) or any(child.suffix.lower() in _MOTION for child in path.iterdir())
+    try:
+        return is_library(path) or any(child.suffix.lower() in _MOTION for child in path.iterdir())
+    except OSError:
+        return False  # whoever reads it says why it cannot be read
 
 
 def refuse_swapped(song: Path | None, motion: Path | None, meant: str) -> None:

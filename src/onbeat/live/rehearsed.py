@@ -32,7 +32,7 @@ def live_session(who: Who, *, latency: float = 0.0) -> Session:
 
     Parameters
     ----------
-    who : a library, one or more choreographies, or a cast.
+    who : a library, one or more choreographies, or a cast, which dances in one session only.
     latency : seconds from a sound to the pose that is on it being seen.
 
     Raises

@@ -13,6 +13,9 @@ from onbeat.motion import rotations as rot
 from onbeat.motion.body import body_frames, facing
 from onbeat.motion.markers import Markers
 from onbeat.motion.motion import Motion
+from onbeat.motion.roles import find_roles
+from onbeat.motion.skeleton import Skeleton
+from onbeat.motion.tree import Tree
 
 Recorded = TypeVar("Recorded", Motion, Markers)
 
@@ -144,5 +147,17 @@ def scaled(motion: Motion, factor: float) -> Motion:
 
 
 def stature(motion: Motion) -> float:
-    """Metres from the lowest to the highest joint when the body stands tallest (90th percentile over the frames)."""
-    return float(np.percentile(np.ptp(motion.positions[..., 2], axis=1), 90))
+    """Metres from the lowest to the highest joint when the body stands tallest (90th percentile over the frames).
+
+    Arms do not count where they are known: a raised hand makes nobody taller.
+    """
+    heights = motion.positions[:, _but_arms(motion.skeleton), 2]
+    return float(np.percentile(np.ptp(heights, axis=1), 90))
+
+
+def _but_arms(skeleton: Skeleton) -> list[int]:
+    """The joints that hang on no shoulder; all of a body whose arms are not known."""
+    joints, _ = find_roles(skeleton)
+    arms = [joints[role] for role in ("left_shoulder", "right_shoulder") if role in joints]
+    tree = Tree.of(skeleton)
+    return [joint for joint in range(len(skeleton)) if not any(tree.above(arm, joint) for arm in arms)]

@@ -20,6 +20,8 @@ from onbeat.motion.tree import Tree
 
 FREE, DEEPEST = 0.015, 0.025
 """Metres under the floor up to which joints stay where they are, and to which they never come."""
+SHORTEST = 1e-6
+"""Metres; what is shorter has no direction."""
 
 
 def pressed(heights: Array) -> Array:
@@ -73,6 +75,15 @@ def on_soles(body: Body, rotations: Rotations, roots: Positions) -> Rotations:
     return out
 
 
+def _across(toes: Positions, foot: Positions) -> Positions:
+    """(N, 3) level axes about which toes turn up: across them, across the foot where they point straight down."""
+    ahead = np.array([0.0, 1.0, 0.0])
+    for way in (foot, toes):
+        ahead = np.where(np.hypot(way[:, 0], way[:, 1])[:, None] > SHORTEST, way, ahead)
+    across = np.stack([ahead[:, 1], -ahead[:, 0], np.zeros(len(ahead))], axis=1)
+    return across / np.linalg.norm(across, axis=1, keepdims=True)
+
+
 def _ball(body: Body, side: str) -> int:
     """The joint of the toes; the ankle of a body without."""
     return body[f"{side}_toe" if f"{side}_toe" in body else f"{side}_ankle"]
@@ -105,12 +116,12 @@ def _bent_up(skeleton: Skeleton, ball: int, rotations: Rotations, roots: Positio
     rows = np.arange(len(rotations))
     deep = places[:, tips][rows, places[:, tips, 2].argmin(axis=1)]
     arm = deep - places[:, ball]
-    length = np.maximum(np.linalg.norm(arm, axis=1), 1e-9)
+    length = np.linalg.norm(arm, axis=1)
+    bends, length = length > SHORTEST, np.maximum(length, SHORTEST)
     wanted = np.arcsin(np.clip((pressed(deep[:, 2]) - places[:, ball, 2]) / length, -1.0, 1.0))
-    angle = np.maximum(wanted - np.arcsin(np.clip(arm[:, 2] / length, -1.0, 1.0)), 0.0)
-    across = np.stack([arm[:, 1], -arm[:, 0], np.zeros(len(arm))], axis=1)
-    across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-9)
-    turned = rot.multiply(rot.about(across, angle), turns[:, ball])
+    angle = np.where(bends, np.maximum(wanted - np.arcsin(np.clip(arm[:, 2] / length, -1.0, 1.0)), 0.0), 0.0)
+    foot = places[:, ball] - places[:, skeleton.parents[ball]]
+    turned = rot.multiply(rot.about(_across(arm, foot), angle), turns[:, ball])
     out = rotations.copy()
     out[:, ball] = rot.multiply(rot.inverse(turns[:, skeleton.parents[ball]]), turned)
     return out

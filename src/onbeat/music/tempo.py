@@ -85,12 +85,13 @@ def danceable_beats(song: Song, slowest: float = DANCE_SLOWEST, fastest: float =
 def fold_of(heard: float, danced: float) -> str:
     """Which part of a tempo that is heard is danced to, in a word; none ("") where it is danced to as it is.
 
-    >>> fold_of(180.0, 90.0), fold_of(50.0, 100.0), fold_of(100.0, 100.0)
-    ('half', 'double', '')
+    >>> fold_of(180.0, 90.0), fold_of(20.0, 80.0), fold_of(100.0, 100.0)
+    ('half', 'four times', '')
     """
     if math.isclose(heard, danced, rel_tol=1e-3):
         return ""
-    return "double" if danced > heard else "half" if danced > 0.3 * heard else "a quarter"
+    words = {-3: "an eighth", -2: "a quarter", -1: "half", 1: "double", 2: "four times"}
+    return words.get(round(math.log2(danced / heard)), f"{danced / heard:.2g} times") if min(heard, danced) > 0 else ""
 
 
 def _every_other(song: Song) -> Ints:

@@ -72,7 +72,8 @@ def _held(place: Path) -> Generator[None, None, None]:
         yield
     finally:
         with contextlib.suppress(OSError):  # where files that are open cannot be taken away it stays, and does no harm
-            (place / LOCK).unlink()
+            if _is_ours(handle, place):
+                (place / LOCK).unlink()
         os.close(handle)
 
 

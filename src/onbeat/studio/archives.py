@@ -108,7 +108,8 @@ def unpacked(archive: Path, folder: Path, largest: int) -> Found:
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError) as error:
         raise OnbeatError(f"the archive cannot be read: {error}; pack it again without a password") from None
     found = [file for file in motion_files(folder) if file in told] if told else []
-    for path in [path for path in told if path not in found and not _is_used(path, found)]:
+    used = {*found, *_beside(found)}
+    for path in [path for path in told if path not in used and not (path.suffix == ".asf" and path.parent in used)]:
         path.unlink()
         other.append(told.pop(path))
     if not found:
@@ -126,6 +127,7 @@ def plain_name(name: str) -> str:
     """
     stem, dot, ending = re.sub(r"[^A-Za-z0-9._-]", "_", name).strip(".").rpartition(".")
     plain = f"{stem[:80]}{dot}{ending[:40].lower()}".lstrip(".-")
+    plain = re.sub(r"(^|\.)roles\.toml$", r"\1roles.toml", plain, flags=re.IGNORECASE)
     return plain or "_"
 
 
@@ -164,13 +166,11 @@ def _is_wanted(entry: zipfile.ZipInfo) -> bool:
     return not _is_hidden(entry) and entry.filename.lower().endswith((*motion_endings(), *BESIDE))
 
 
-def _is_used(path: Path, motions: Sequence[Path]) -> bool:
-    """Whether a file that is no motion is a skeleton or a roles file of one."""
+def _beside(motions: Sequence[Path]) -> set[Path | None]:
+    """The files of roles that motions have, and the folders of those that have their skeleton beside them."""
     from onbeat.motion.role_file import roles_beside
 
-    if path.suffix == ".asf":
-        return any(motion.suffix == ".amc" and motion.parent == path.parent for motion in motions)
-    return any(roles_beside(motion) == path for motion in motions)
+    return {*map(roles_beside, motions), *(motion.parent for motion in motions if motion.suffix == ".amc")}
 
 
 def _place(folder: Path, name: str, left: _Left) -> Path:

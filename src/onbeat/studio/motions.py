@@ -37,7 +37,7 @@ async def take_motions(request: Request) -> Response:
         discard(upload)
         shutil.rmtree(folder, ignore_errors=True)
     studio.jobs.look()
-    return answer(TakenMotions(items, found.passed_over[:MOST_TOLD]), 201)
+    return answer(TakenMotions(items, [clean_name(name, "?") for name in found.passed_over[:MOST_TOLD]]), 201)
 
 
 def _files(upload: Path, folder: Path, name: str, largest: int) -> Found:

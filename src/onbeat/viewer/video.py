@@ -29,7 +29,7 @@ STRIP = 0.1
 """The strip's part of the picture's height."""
 SMALLEST, LARGEST = 16, 4096
 """Pixels of a side."""
-FASTEST = 240.0
+SLOWEST, FASTEST = 0.01, 240.0
 """Pictures a second."""
 
 
@@ -58,7 +58,7 @@ def write_video(
     path : the file; an older one is replaced once the new one is whole.
     motion, song : what is danced, and what its strip shows.
     audio : ((N, channels) samples -1…1, samples a second), or None for a silent film.
-    fps : frames a second, above 0 and at most 240.
+    fps : frames a second, 0.01 to 240.
     size : width and height in pixels; even numbers from 16 to 4096.
     stops : seconds at which the dancer stops, marked in the strip.
     marked : what the strip calls these marks.
@@ -91,8 +91,8 @@ def check_film(size: Size, fps: float) -> None:
         raise OnbeatError(
             f"a video of {size[0]} x {size[1]} pixels cannot be coded; give even numbers from {SMALLEST} to {LARGEST}"
         )
-    if not 0 < fps <= FASTEST:
-        raise OnbeatError(f"a video of {fps:g} pictures a second cannot be made; give more than 0, {FASTEST:g} at most")
+    if not SLOWEST <= fps <= FASTEST:
+        raise OnbeatError(f"a video of {fps:g} pictures a second cannot be made; give {SLOWEST:g} to {FASTEST:g}")
 
 
 def require_av() -> Any:

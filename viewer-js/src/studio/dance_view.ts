@@ -161,6 +161,12 @@ export class DanceView implements View {
     }
   }
 
+  /** The song's own tempo, where the dance goes at half or double of it. */
+  private heard(item: DanceItem, danced: number): string {
+    const tempo = (this.studio.store.project?.songs.find(({ id }) => id === item.order.song)?.tempo ?? 0) * item.speed;
+    return tempo > 0 && Math.abs(Math.log2(tempo / danced)) > 0.8 ? ` (${Math.round(tempo)} heard)` : "";
+  }
+
   private lay(item: DanceItem, locks: HTMLElement): void {
     const { danced, score, transport, tools, stage, graph } = this.shown as Shown;
     const { order } = item;
@@ -170,7 +176,7 @@ export class DanceView implements View {
       `λ ${order.intensity_weight}`,
       `seed ${order.seed}`,
     ];
-    if (danced.scene.tempo > 0) facts.splice(1, 0, `${Math.round(danced.scene.tempo)} beats a minute`);
+    if (danced.scene.tempo > 0) facts.splice(1, 0, `${Math.round(danced.scene.tempo)} beats a minute${this.heard(item, danced.scene.tempo)}`);
     if (item.speed !== 1) facts.push(`×${item.speed.toFixed(2)}`);
     if (item.f50 !== null) facts.push(`F50 ${item.f50.toFixed(2)}`);
     this.root.replaceChildren(

@@ -36,7 +36,7 @@ export class Dropping {
       event.preventDefault();
       this.hover(-this.depth);
       void droppedFiles(event.dataTransfer).then(
-        (files) => this.take(files),
+        (folders) => this.take(folders),
         () => notice("The folder could not be read: drop the files in it, or a zip of them.", true),
       );
     });
@@ -44,7 +44,7 @@ export class Dropping {
     chooser.addEventListener("change", () => {
       const chosen = Array.from(chooser.files ?? []);
       chooser.value = "";
-      void this.take(chosen);
+      void this.take([chosen]);
     });
   }
 
@@ -53,11 +53,12 @@ export class Dropping {
   }
 
   /** One after the other: the server's line is not made wider by many at once. What is taken first is shown. */
-  async take(files: readonly File[]): Promise<void> {
+  async take(folders: readonly (readonly File[])[]): Promise<void> {
     const here = location.hash;
     const refusals = new Refusals();
-    if (!files.length) notice("There is no file in what was dropped.", true);
-    const entries = parcels(files).map((parcel) => ({ parcel, entry: this.entry(parcel, refusals) }));
+    if (!folders.flat().length) notice("There is no file in what was dropped.", true);
+    const all = folders.flatMap(parcels).sort((a, b) => Number(b.kind === "song") - Number(a.kind === "song"));
+    const entries = all.map((parcel) => ({ parcel, entry: this.entry(parcel, refusals) }));
     for (const { parcel, entry } of entries) {
       if (entry) await this.give(parcel, entry, refusals, () => location.hash === here);
     }

@@ -141,7 +141,7 @@ export class OrderView implements View {
   }
 
   private made(): HTMLFormElement {
-    const whole = button("Whole song", () => this.take(Number(this.start.value), this.duration));
+    const whole = button("Whole song", () => this.take(0, this.duration));
     return h(
       "form",
       { class: "form", id: "order" },

@@ -62,6 +62,7 @@ export class Player {
   play(): void {
     if (this.playing || !this.duration) return;
     if (this.shown >= this.duration - AT_END) this.shown = 0;
+    if (this.audio.error && this.what.url) this.audio.src = this.what.url; // the server may be back
     this.playing = true;
     this.begin(this.shown);
     this.changed();
