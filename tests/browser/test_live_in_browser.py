@@ -173,7 +173,7 @@ def test_the_dancer_stands_as_the_motion_says_at_the_second_that_is_shown(opened
             off.append(float(np.abs(np.subtract(wanted, state["joints"])).max()))
         assert 0.0 < state["newest"] - state["time"] < 0.6, "a little behind the newest pose"
     assert np.median(off or [0.0]) < 0.01
-    assert max(off, default=0.0) < 0.1  # a busy machine sends poses farther apart, and the page goes straight between them
+    assert max(off, default=0.0) < 0.1  # poses come farther apart on a busy machine; straight between them
 
 
 def test_beats_light_up_when_they_are_shown(opened: LivePage):
