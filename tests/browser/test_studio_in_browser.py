@@ -253,6 +253,10 @@ def test_beats_are_put_right_and_kept(opened: Opened, given: Given) -> None:
     x = box["x"] + box["width"] * (before[2] + before[3]) / 2 / SECONDS  # all of it is shown
     page.mouse.dblclick(x, box["y"] + 100)
     assert len(opened.state()["beats"]) == len(before) + 1
+    assert page.inner_text(".told").startswith("Added. Beat"), "said to who does not see it"
+    words = page.get_attribute(".editor .track", "aria-label")
+    assert f"{len(before) + 1} beats, " in words
+    assert "put right: 1 not as they were heard" in words
     page.mouse.move(x, box["y"] + 100)
     page.mouse.down()
     page.mouse.move(x + 5, box["y"] + 100)
@@ -295,6 +299,25 @@ def test_everything_has_a_name_is_reached_by_tab_and_can_be_read(opened: Opened)
         for _ in range(2):
             assert page.evaluate(FAINT) == [], view
             page.click("#dark")
+
+
+def test_each_folder_that_is_dropped_keeps_to_itself(opened: Opened, tmp_path: Path) -> None:
+    page, sent = opened.page, []
+    take = dance_library(fps=30.0)[0].motion[:90]
+    for name in ("one", "two"):
+        (tmp_path / "both" / name).mkdir(parents=True)
+        write_motion(take, tmp_path / "both" / name / f"in_{name}.bvh")
+        (tmp_path / "both" / name / "roles.toml").write_text('[joints]\nhips = "Hips"\n')
+    page.on("request", lambda request: request.url.partition("?")[0].endswith("/api/motions") and sent.append(request))
+    mouse = page.context.new_cdp_session(page)
+    dragged = {"items": [], "files": [str(tmp_path / "both")], "dragOperationsMask": 1}
+    for kind in ("dragEnter", "dragOver", "drop"):
+        mouse.send("Input.dispatchDragEvent", {"type": kind, "x": 500, "y": 200, "data": dragged})
+    for name in ("one", "two"):
+        page.wait_for_selector(f"#shelf .card:has-text('in_{name}')")
+    assert len(sent) == 2  # two archives, in which each motion has its own roles
+    assert page.locator("#notices .bad").count() == 0
+    assert opened.complaints == []
 
 
 def test_dialogs_keep_the_focus_and_close_with_escape(opened: Opened) -> None:

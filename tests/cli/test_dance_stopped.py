@@ -141,8 +141,14 @@ def test_stopped_in_any_stage_nothing_is_left(
 
 
 def test_stopped_in_a_compiled_loop(run: Run, song: Path, out: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def loop(*_: object) -> None:
+    def inner() -> None:
         raise SystemError("returned a result with an exception set") from KeyboardInterrupt()
+
+    def loop(*_: object) -> None:
+        try:
+            inner()
+        except SystemError as error:
+            raise SystemError("returned a result with an exception set") from error  # a loop that called another
 
     monkeypatch.setattr(command, "hear", loop)
     assert run(song, "-o", out) == (130, "", "onbeat: stopped\n")

@@ -29,7 +29,7 @@ def main() -> None:
     except KeyboardInterrupt:
         _stop("stopped", 130)
     except SystemError as error:
-        if not isinstance(error.__cause__, KeyboardInterrupt):
+        if not _is_stopped(error):
             raise
         _stop("stopped", 130)  # Ctrl-C while a compiled loop ran
     except OSError as error:  # of files, onbeat's own errors tell; this is the screen, or the pipe, that is printed to
@@ -38,6 +38,13 @@ def main() -> None:
         if isinstance(error, BrokenPipeError):  # who reads our output has seen enough
             sys.exit(1)
         _stop(f"{error.filename or 'standard output'}: {error.strerror or error}", 1)
+
+
+def _is_stopped(error: BaseException | None) -> bool:
+    """Whether Ctrl-C is at the bottom of an error: every compiled loop on the way wraps it once more."""
+    while isinstance(error, SystemError):
+        error = error.__cause__ or error.__context__
+    return isinstance(error, KeyboardInterrupt)
 
 
 def _stop(message: str, status: int) -> NoReturn:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from onbeat._shapes import Float32
 from onbeat.cli.progress import Stages
 from onbeat.dance.make import LONGEST, clock
-from onbeat.errors import PlanError
+from onbeat.errors import AudioError, PlanError
 
 if TYPE_CHECKING:
     from onbeat.music.fixes import Corrections
@@ -33,6 +33,8 @@ def hear(
         return _hear_embedded(start, seconds, seed, fixes, stages)
     stages("listening", 0.0)
     length = audio_duration(song)
+    if length <= 0:
+        raise AudioError(f"{song}: holds no sound (0 samples); expected a song")
     if start >= length:
         raise PlanError(f"--start {start:g}: {song} lasts {length:.1f} s")
     wanted = min(seconds or length, length - start)

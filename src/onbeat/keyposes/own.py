@@ -61,6 +61,6 @@ def own_keyposes(motion: Motion) -> Times:
     (True, 0)
     """
     try:
-        return find_keyposes(motion, motion_beats(motion)).times
+        return own_time(motion).keyposes
     except PlanError:
         return np.zeros(0)

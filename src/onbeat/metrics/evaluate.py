@@ -54,7 +54,7 @@ def evaluate_motion(motion: Motion, song: Song, seed: int = 0) -> dict[str, Scor
     """
     duration = min(motion.duration, song.duration)
     if duration <= 0:
-        raise MetricError("the motion begins after the song has ended; choose an earlier --start")
+        raise MetricError("the motion begins after the song has ended; choose an earlier start")
     heard = danceable_beats(song).cut(0.0, duration)
     features = hand_features(motion)
     rng = np.random.default_rng(seed)

@@ -72,7 +72,7 @@ def _held(place: Path) -> Generator[None, None, None]:
         yield
     finally:
         with contextlib.suppress(OSError):  # where files that are open cannot be taken away it stays, and does no harm
-            if _is_ours(handle, place):
+            if _is_there(handle, place / LOCK):  # who took it away by hand let another in, whose lock is now there
                 (place / LOCK).unlink()
         os.close(handle)
 

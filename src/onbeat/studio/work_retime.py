@@ -32,6 +32,7 @@ from onbeat.studio.tasks import Done, RetimeTask
 from onbeat.studio.telling import Tell
 from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import GraphData, MoveData, PageData
+from onbeat.viewer.metric_words import told
 from onbeat.viewer.robot_page import robot_page_data
 
 ON_BEAT = 0.05
@@ -62,7 +63,7 @@ def again_as(task: RetimeTask, root: StoredDance, graph: GraphData | None, tell:
     stored.write(out, SHOWN)
     if page is None:
         page = page_data(motion, song, msgspec.to_builtins(document), None, stored.keyposes)
-    write_scene(out, msgspec.structs.replace(_with_moves(page, document), graph=graph))
+    write_scene(out, msgspec.structs.replace(_with_moves(page, document), graph=graph, metrics=told(metrics)))
     return Done(seconds=motion.duration, tempo=song.tempo, f50=f50, note=note)
 
 

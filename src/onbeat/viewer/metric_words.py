@@ -9,8 +9,11 @@ import numpy as np
 
 from onbeat.viewer.contract import MetricData
 
-GROUPS = ("search", "beats_before_warp", "beats", "warp", "intensity", "feet", "smoothness", "variety")
-"""Of what every dance measures; of these only what there are words for is told, ``dance.json`` has all."""
+GROUPS = (
+    "search", "beats_before_warp", "beats", "warp", "intensity", "feet", "smoothness", "variety", "retime", "robot",
+)  # fmt: skip
+"""Of what dances measure, those in another time and on robots, too; of these only what there are words for is told,
+``dance.json`` has all."""
 
 
 class Told(NamedTuple):
@@ -32,8 +35,21 @@ TOLD = (
     Told("feet at joins", "feet", "skate_joins", "{:.3f} m/s", ("feet", "skate_source", "{:.3f} in the clips")),
     Told("shown twice", "variety", "repeated_s", "{:.1f} s"),
     Told("of the best with repeats", "search", "of_optimum", "{:.2f}"),
+    Told("speed", "retime", "speed", "{:.2f} ×"),
+    Told("off the same dance merely faster", "retime", "rms_deg", "{:.1f}° (rms)"),
+    Told("worst keypose", "retime", "keypose_error_deg", "{:.1f}° off", ("retime", "keyposes_missed", "{:.0f} missed")),
+    Told("speed", "robot", "speed", "{:.2f} ×"),
+    Told(
+        "in balance",
+        "robot",
+        "balance_inside",
+        "{:.1%} of the time",
+        ("robot", "balance_worst_mm", "{:.0f} mm at least"),
+    ),
+    Told("joints past their angles", "robot", "joints_past_position_limits", "{:.0f}"),
+    Told("joints past their speeds", "robot", "joints_past_speed_limits", "{:.0f}"),
 )
-"""The words of the table that ``onbeat dance`` prints."""
+"""The words of the tables that ``onbeat dance``, ``retime`` and ``robot`` print, as short as a page needs them."""
 
 
 def told(metrics: Mapping[str, Any]) -> list[MetricData]:

@@ -1,4 +1,4 @@
-// Words that come up at the foot of the page and go again; what went wrong stays until it is put away.
+// Words that come up over the head of the page, where nothing is played, and go again; what went wrong stays until it is put away.
 
 import { at, h } from "./elements";
 
