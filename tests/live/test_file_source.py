@@ -31,10 +31,11 @@ def written(path: Path, seconds: float, rate: int = RATE) -> np.ndarray:
 
 
 def played(source: FileSource, clock: Clock, seconds: float = 1e9) -> np.ndarray:
-    """What is heard until so much of it was, or it ended."""
-    out, count, limit = list[np.ndarray](), 0.0, time.monotonic() + 20.0
+    """What is heard until so much of it was, or it ended; the clock stands while the decoding thread is behind."""
+    out, count, limit = list[np.ndarray](), 0.0, time.monotonic() + 60.0
+    blocks = [(np.zeros((0, 1), np.float32), 1)]
     while source.state == "sound" and count < seconds and time.monotonic() < limit:
-        clock.now += 0.25
+        clock.now += 0.25 if blocks else 0.0
         blocks = source.read()
         out += [block for block, _ in blocks]
         count += sum(len(block) / rate for block, rate in blocks)

@@ -64,6 +64,9 @@ class FileSource(Played):
         self.seconds = audio_duration(self._path)
         rounds = itertools.chain(first, blocks)
         threading.Thread(target=self._decode, args=(rounds,), name="decoding", daemon=True).start()
+        block = self._ahead.get()  # the clock does not run before there is something to hear
+        self._finished = block is None
+        self._block = self._block if block is None else block
         self._begin()
 
     def close(self) -> None:
