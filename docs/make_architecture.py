@@ -40,6 +40,10 @@ def table() -> str:
         if room:
             rows.append(f"| **`{room}/`** | **{first_sentence(SOURCE / room / '__init__.py')}** |")
         rows += [f"| `{path.relative_to(SOURCE).as_posix()}` | {first_sentence(path)} |" for path in modules]
+        for inner in sorted((SOURCE / room).glob("*/__init__.py")) if room else ():
+            rows.append(f"| *`{inner.parent.relative_to(SOURCE).as_posix()}/`* | *{first_sentence(inner)}* |")
+            inside = sorted(path for path in inner.parent.glob("*.py") if path != inner)
+            rows += [f"| `{path.relative_to(SOURCE).as_posix()}` | {first_sentence(path)} |" for path in inside]
     return "\n".join(rows) + "\n"
 
 

@@ -15,7 +15,7 @@ from onbeat.keyposes.lowdim_document import LowdimDocument
 from onbeat.keyposes.threshold_file import LearnedDocument
 from onbeat.music.song import SongDocument
 from onbeat.reproduce.document import ResultsDocument
-from onbeat.reproduce.study_answers import StudyDocument
+from onbeat.reproduce.study.answers import StudyDocument
 from onbeat.retime.document import RetimeDocument
 from onbeat.retime.observe_document import ObserveDocument
 from onbeat.robots.document import RobotDocument

@@ -28,7 +28,7 @@ ROOMS = {
     "viewer": ("page", "dance_page", "robot_page", "video", "sheet", "raster"),
     "live": ("rehearsed", "session", "cast"),
     "studio": ("serve", "app", "project"),
-    "reproduce": ("run", "paper", "data", "result", "study", "study_table"),
+    "reproduce": ("run", "paper", "data", "result", "study.plans", "study.table"),
     "cli": ("commands",),
 }
 """The modules that a program calls, by room, "" for the room's own; what else there is, ``ARCHITECTURE.md`` lists."""

@@ -14,10 +14,10 @@ import uvicorn
 
 from browser.pictures import Pictures
 from folk_dancers import spaces_of
-from onbeat.reproduce.study import PAGE, study_page
-from onbeat.reproduce.study_answers import read_answers
-from onbeat.reproduce.study_server import open_study, study_app
-from onbeat.reproduce.study_table import outcome_of
+from onbeat.reproduce.study.answers import read_answers
+from onbeat.reproduce.study.plans import PAGE, study_page
+from onbeat.reproduce.study.server import open_study, study_app
+from onbeat.reproduce.study.table import outcome_of
 
 pytestmark = pytest.mark.browser
 

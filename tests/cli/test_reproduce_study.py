@@ -11,9 +11,9 @@ from folk_dancers import spaces_of
 from onbeat.cli.reproduce import reproduce_app
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.judging import Answer
-from onbeat.reproduce import p3_people
 from onbeat.reproduce.data import Data
-from onbeat.reproduce.study_answers import PersonAnswers, StudyDocument
+from onbeat.reproduce.p3 import people
+from onbeat.reproduce.study.answers import PersonAnswers, StudyDocument
 
 
 class MadePeople:
@@ -29,7 +29,7 @@ def made(data: Data) -> MadePeople:
 
 @pytest.fixture(autouse=True)
 def _made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(p3_people, "people_of", made)
+    monkeypatch.setattr(people, "people_of", made)
 
 
 def call(*words: str) -> None:

@@ -15,13 +15,13 @@ from onbeat.metrics.beats import recall
 from onbeat.moves.cache import build_from
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
-from onbeat.reproduce import p1
 from onbeat.reproduce.data import Data
-from onbeat.reproduce.p1_choice import choice_before
-from onbeat.reproduce.p1_claims import claims
-from onbeat.reproduce.p1_dances import METHODS, Danced, Method, dance
-from onbeat.reproduce.p1_songs import Tune, found, interval, tunes
-from onbeat.reproduce.p1_tables import beat_table
+from onbeat.reproduce.p1 import music_to_dance as p1
+from onbeat.reproduce.p1.choice import choice_before
+from onbeat.reproduce.p1.claims import claims
+from onbeat.reproduce.p1.dances import METHODS, Danced, Method, dance
+from onbeat.reproduce.p1.songs import Tune, found, interval, tunes
+from onbeat.reproduce.p1.tables import beat_table
 from onbeat.reproduce.result import FigureResult, PaperResult, TableResult
 from sounds import HEARD_RATE, beat_times, hat, kick, mix, piano
 

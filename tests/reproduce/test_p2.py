@@ -12,19 +12,20 @@ from onbeat.examples.dances import perform_dance
 from onbeat.formats.write import write_motion
 from onbeat.motion.joint_angles import JointAngles
 from onbeat.reproduce.data import Data
-from onbeat.reproduce.p2 import PAPER
-from onbeat.reproduce.p2_curves import lowered, stretches
-from onbeat.reproduce.p2_hand import compared, hand_paths
-from onbeat.reproduce.p2_methods import OURS, PRINTED, PUBLISHED, ask, detail_kept
-from onbeat.reproduce.p2_observed import Kept, detail_left, kept, observed
-from onbeat.reproduce.p2_seen import Seen
-from onbeat.reproduce.p2_seen_claims import seen_claims
-from onbeat.reproduce.p2_takes import Solo, real_takes, troupe_takes
-from onbeat.reproduce.p2_tried import Tried
-from onbeat.reproduce.p2_tried_claims import tried_claims
+from onbeat.reproduce.p2.curves import lowered, stretches
+from onbeat.reproduce.p2.hand import compared, hand_paths
+from onbeat.reproduce.p2.methods import OURS, PRINTED, PUBLISHED, ROBOT, ask, detail_kept
+from onbeat.reproduce.p2.observed import Kept, detail_left, kept, observed
+from onbeat.reproduce.p2.seen import Seen
+from onbeat.reproduce.p2.seen_claims import seen_claims
+from onbeat.reproduce.p2.takes import Solo, real_takes, troupe_takes
+from onbeat.reproduce.p2.temporal_scaling import PAPER
+from onbeat.reproduce.p2.tried import FOUND, Tried, angles_of
+from onbeat.reproduce.p2.tried_claims import tried_claims
 from onbeat.reproduce.result import FigureResult
 from onbeat.retime.bspline import Spline
 from onbeat.retime.sources import Table
+from onbeat.robots.model import robot_named
 
 PERIOD = 0.5
 
@@ -83,7 +84,7 @@ def test_claims_turn_where_the_dance_is_merely_played(danced, played):
 def test_so_few_valleys_that_a_coin_would_do_as_well_decide_nothing(danced, monkeypatch):
     def holds(valleys: int, right: int, recall: float = 0.6) -> bool | None:
         told = Kept(valleys, 8, right / valleys, recall, 0.2, 0.1)
-        monkeypatch.setattr("onbeat.reproduce.p2_seen_claims.kept", lambda _: told)
+        monkeypatch.setattr("onbeat.reproduce.p2.seen_claims.kept", lambda _: told)
         return seen_claims(Seen((danced,), (), (danced.takes,)))[4].holds
 
     assert holds(5, 3) is None
@@ -132,20 +133,35 @@ def test_layers_are_lowered_the_finest_first_and_the_limit_is_where_it_is_enlarg
 
 
 def test_real_takes_are_observed_and_danced_where_nothing_can_be_simulated(tmp_path, monkeypatch):
-    monkeypatch.setattr("onbeat.reproduce.p2_tried.why_not", lambda: "no engine")
-    monkeypatch.setattr("onbeat.reproduce.p2_wish.why_not", lambda: "no engine")
-    monkeypatch.setattr("onbeat.reproduce.p2_takes.LONGEST", 3.0)
+    monkeypatch.setattr("onbeat.reproduce.p2.tried.why_not", lambda: "no engine")
+    monkeypatch.setattr("onbeat.reproduce.p2.wish.why_not", lambda: "no engine")
+    monkeypatch.setattr("onbeat.reproduce.p2.takes.LONGEST", 3.0)
     for number, take in enumerate(troupe_takes(0, (1.0, 1.5), 1).takes):
         path = tmp_path / f"take_{number}.bvh"
         write_motion(take.motion, path)
         path.with_suffix(".beats").write_text("".join(f"{beat:.4f}\n" for beat in take.beats if beat > 0))
-    found = PAPER.reproduce(Data(motions=(tmp_path,)), lambda share, what: None)
+    told = list[float]()
+    found = PAPER.reproduce(Data(motions=(tmp_path,)), lambda share, what: told.append(share))
+    assert told == sorted(told)
+    assert max(told) < 1.0
     numbers = [part.number for part in found.parts]
     assert {"Fig. 1", "Fig. 3", "Fig. 4", "Fig. 6", "Fig. 8"} <= set(numbers)
     assert "Fig. 7" not in numbers
     assert all(part.svg.startswith(b"<?xml") for part in found.parts if isinstance(part, FigureResult))
     assert any("no engine" in line for line in found.differs)
     assert [claim.holds for claim in found.claims[-2:]] == [None, None]
+
+
+def test_how_far_the_robots_angles_are_found_is_told_all_the_way(monkeypatch):
+    def slow(solo, robot, *, captured, progress):
+        progress(0.5)
+        return captured
+
+    monkeypatch.setattr("onbeat.reproduce.p2.tried.on_robot", slow)
+    told = list[tuple[float, str]]()
+    assert angles_of(None, robot_named(ROBOT), lambda *step: told.append(step)) == {True: True, False: False}
+    assert [share / FOUND for share, _ in told] == pytest.approx([0.0, 0.25, 0.5, 0.75])
+    assert [what.split(", ")[1] for _, what in told] == ["as captured"] * 2 + ["as planned"] * 2
 
 
 def test_takes_without_beats_are_refused_with_what_to_write(tmp_path):

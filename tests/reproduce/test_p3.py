@@ -17,16 +17,16 @@ from onbeat.keyposes.extract import Reading, find_keyposes
 from onbeat.keyposes.unnatural import Unnatural
 from onbeat.recognition.protocols import PAPER as COUNTED
 from onbeat.recognition.protocols import PaperTables, Score
-from onbeat.reproduce import p3_recognition, p3_thresholds
 from onbeat.reproduce.data import Data
-from onbeat.reproduce.p3 import PAPER
-from onbeat.reproduce.p3_dances import BESIDE, CYCLES, Danced, embedded_dances, marked_dances
-from onbeat.reproduce.p3_energy_figures import figure_3
-from onbeat.reproduce.p3_extraction import TRUE, Extraction, extract, extraction_claims, table_1
-from onbeat.reproduce.p3_files import Take, UntoldWarning, one_dance
-from onbeat.reproduce.p3_lowdim import Spaces, grouped
-from onbeat.reproduce.p3_recognition import recognised, recognition_claims, recognition_tables
-from onbeat.reproduce.p3_thresholds import globally_learned, level_from, swept, threshold_claims, threshold_figure
+from onbeat.reproduce.p3 import recognition, thresholds
+from onbeat.reproduce.p3.dances import BESIDE, CYCLES, Danced, embedded_dances, marked_dances
+from onbeat.reproduce.p3.energy_figures import figure_3
+from onbeat.reproduce.p3.extraction import TRUE, Extraction, extract, extraction_claims, table_1
+from onbeat.reproduce.p3.files import Take, UntoldWarning, one_dance
+from onbeat.reproduce.p3.keyposes import PAPER
+from onbeat.reproduce.p3.lowdim import Spaces, grouped
+from onbeat.reproduce.p3.recognition import recognised, recognition_claims, recognition_tables
+from onbeat.reproduce.p3.thresholds import globally_learned, level_from, swept, threshold_claims, threshold_figure
 from onbeat.reproduce.result import FigureResult, TableResult
 
 
@@ -113,7 +113,7 @@ def test_curves_by_the_global_energy_alone_hold_what_was_learned_by_it_alone(
         orders.extend(reading.options.order for reading in readings)
         return (Thresholds(1.0, 1.0),) * len(dances)
 
-    monkeypatch.setattr(p3_thresholds, "learned", learned)
+    monkeypatch.setattr(thresholds, "learned", learned)
     assert list(globally_learned(two)) == ["as published", "ours"]
     assert orders == ["global"] * 4
 
@@ -144,7 +144,7 @@ def test_dancers_who_are_always_alike_are_known_again_and_the_papers_epsilon_tur
 ):
     # In place of ours, which takes long to learn: an ε that nothing is beyond.
     for name in ("ours", "ours_across"):
-        monkeypatch.setattr(p3_recognition, name, p3_recognition.as_published(0.999))
+        monkeypatch.setattr(recognition, name, recognition.as_published(0.999))
     tables = recognition_tables(recognised(0, silent, 1, (0.0,)))
     rows = [row for table in tables for row in table.rows]
     assert [row.paper.split(" · ")[0] for row in rows if row.paper] == [f"{a} / {b}" for a, b in COUNTED.values()]

@@ -16,10 +16,10 @@ import pytest
 from folk_dancers import spaces_of
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.judging import Answer, AnswersDocument
-from onbeat.reproduce.study import PAGE, plans, study_page
-from onbeat.reproduce.study_answers import PersonAnswers, StudyDocument, read_answers
-from onbeat.reproduce.study_server import LARGEST, Study, keep_answers, open_study, study_app
-from onbeat.reproduce.study_table import outcome_of, study_table
+from onbeat.reproduce.study.answers import PersonAnswers, StudyDocument, read_answers
+from onbeat.reproduce.study.plans import PAGE, plans, study_page
+from onbeat.reproduce.study.server import LARGEST, Study, keep_answers, open_study, study_app
+from onbeat.reproduce.study.table import outcome_of, study_table
 from own_loop import run
 
 

@@ -18,9 +18,9 @@ from onbeat.errors import OnbeatError
 from onbeat.files import make_folder, write_atomically
 from onbeat.reproduce.data import Data
 from onbeat.reproduce.result import TableResult
-from onbeat.reproduce.study import ANSWERS, PAGE, SEQUENCES, study_page
-from onbeat.reproduce.study_answers import read_answers
-from onbeat.reproduce.study_table import outcome_of, study_table
+from onbeat.reproduce.study.answers import read_answers
+from onbeat.reproduce.study.plans import ANSWERS, PAGE, SEQUENCES, study_page
+from onbeat.reproduce.study.table import outcome_of, study_table
 
 Flag = Annotated[bool, cyclopts.Parameter(negative="")]
 
@@ -97,7 +97,7 @@ def _make(folder: Path, data: Data, sequences: int) -> None:
     page = make_folder(folder) / PAGE
     if page.exists():
         return
-    from onbeat.reproduce.p3_people import people_of
+    from onbeat.reproduce.p3.people import people_of
 
     if not 0 <= data.seed < 2**63:
         raise OnbeatError(f"--seed {data.seed}: give a whole number from 0 to 2^63 - 1")
@@ -107,7 +107,7 @@ def _make(folder: Path, data: Data, sequences: int) -> None:
 
 
 def _serve(folder: Path, host: str, port: int, json: bool) -> None:
-    from onbeat.reproduce.study_server import serve_study
+    from onbeat.reproduce.study.server import serve_study
 
     def said(address: str) -> None:
         print(f"Open {address} (Ctrl-C ends it)", file=sys.stderr, flush=True)  # noqa: T201

@@ -33,9 +33,9 @@ class Paper(Protocol):
 
 
 PAPERS = {
-    "P1": ("onbeat.reproduce.p1", "dancing to music, 2006"),
-    "P2": ("onbeat.reproduce.p2", "the same dance to faster music, 2007"),
-    "P3": ("onbeat.reproduce.p3", "keyposes, the poses in which a dance rests, 2009"),
+    "P1": ("onbeat.reproduce.p1.music_to_dance", "dancing to music, 2006"),
+    "P2": ("onbeat.reproduce.p2.temporal_scaling", "the same dance to faster music, 2007"),
+    "P3": ("onbeat.reproduce.p3.keyposes", "keyposes, the poses in which a dance rests, 2009"),
 }
 """Of each paper by its key: the module whose ``PAPER`` it is, imported when it is asked for, and what it is about."""
 

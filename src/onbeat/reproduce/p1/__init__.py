@@ -1,0 +1,1 @@
+"""P1: dancing to music by rhythm and intensity, 2006."""
