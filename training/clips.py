@@ -17,9 +17,10 @@ from onbeat.music.hearing import BANDS_PER_OCTAVE, ONSET_HOP, ONSET_WINDOW, SILE
 from onbeat.music.spectrum import SpectrumStream, bin_frequencies, log_bands
 from training import timbres
 from training.bank import RATE
-from training.pattern import SECONDS, Performance, compose
+from training.pattern import SECONDS, compose
 from training.player import Bank, load, play
 from training.rooms import record
+from training.song import Performance
 
 WINDOW, HOP = 2 * round(ONSET_WINDOW * RATE / 2), round(ONSET_HOP * RATE)
 FRAMES = round(SECONDS * RATE) // HOP

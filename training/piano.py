@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from training.pattern import Song
+from training.song import Song
 
 ALBERTI = (0, 2, 1, 2)
 

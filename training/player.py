@@ -10,7 +10,7 @@ import numba
 import numpy as np
 
 from training.bank import PITCHES, RATE
-from training.pattern import Performance
+from training.song import Performance
 
 LOOP_BEGIN, LOOP_END = 1.0, 2.3  # [s] a held note of a bank goes to and fro between these
 

@@ -17,6 +17,12 @@ def pattern(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return pytest.importorskip("training.pattern")
 
 
+@pytest.fixture
+def song(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    monkeypatch.syspath_prepend(str(ROOT))
+    return pytest.importorskip("training.song")
+
+
 def test_the_same_seed_gives_the_same_notes(pattern: ModuleType) -> None:
     one, two = pattern.compose(3), pattern.compose(3)
     assert one.notes == two.notes
@@ -61,6 +67,6 @@ def test_strokes_without_swing_and_jitter_fall_on_steps(pattern: ModuleType) -> 
     np.testing.assert_allclose(times, song.grid.beats[: len(times)], atol=1e-9)
 
 
-def test_swing_delays_off_beats_only(pattern: ModuleType) -> None:
-    grid = pattern.Grid(np.arange(9.0), 4, 2, 2.0 / 3.0)
+def test_swing_delays_off_beats_only(song: ModuleType) -> None:
+    grid = song.Grid(np.arange(9.0), 4, 2, 2.0 / 3.0)
     np.testing.assert_allclose(grid.time(np.array([0.0, 0.5, 1.0, 1.5])), [0.0, 2.0 / 3.0, 1.0, 5.0 / 3.0])
