@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
+
+import msgspec
 
 import onbeat
 
@@ -17,12 +20,13 @@ myst_heading_anchors = 4
 myst_enable_extensions = ["colon_fence", "deflist"]
 suppress_warnings = ["misc.highlighting_failure"]
 highlight_language = "text"
-pygments_style, pygments_dark_style = "friendly", "github-dark"
+pygments_style, pygments_dark_style = "default", "github-dark"  # comments that can be read: 4.5 to 1 and more
 
 html_theme = "furo"
 html_title = "onbeat"
 html_static_path = ["site"]
 html_css_files = ["site.css"]
+html_search_scorer = str(Path(__file__).parent / "site" / "search.js")
 html_show_sphinx = False
 html_copy_source = False
 html_show_sourcelink = False
@@ -79,12 +83,32 @@ def _bars(line: str) -> str:
 
 
 _VALUES: dict[str, list[str]] = {}
+_DOCUMENTS = Path(__file__).with_name("documents.md").read_text(encoding="utf-8")
 
 
-def _before(_app: Any, what: str, name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+def _before(_app: Any, what: str, name: str, thing: Any, _options: Any, lines: list[str]) -> None:
     lines[:] = as_numpy_has_it(lines)
+    if _is_document(thing) and f'"title": "{thing.__name__}"' in _DOCUMENTS:
+        lines += ["", "Its fields are in :doc:`../documents`."]
     if what in ("data", "attribute"):
         _VALUES[name] = list(lines)
+
+
+_FORWARD = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
+
+
+def _is_document(thing: Any) -> bool:
+    return isinstance(thing, type) and issubclass(thing, msgspec.Struct)
+
+
+def _signed(_app: Any, _what: str, _name: str, thing: Any, _options: Any, taken: str, given: str) -> Any:
+    """A shape's name in a union is its name, not the class that Sphinx has for it; of documents none is shown.
+
+    Their fields, each with its sentence, would be a paragraph of types; a table of them is on the page of documents.
+    """
+    if _is_document(thing):
+        return "", ""
+    return tuple(text and _FORWARD.sub(r"\1", text) for text in (taken, given))
 
 
 def _after(_app: Any, _what: str, name: str, _object: Any, _options: Any, lines: list[str]) -> None:
@@ -98,3 +122,4 @@ def setup(app: Any) -> None:
     """
     app.connect("autodoc-process-docstring", _before, priority=400)
     app.connect("autodoc-process-docstring", _after, priority=600)
+    app.connect("autodoc-process-signature", _signed)

@@ -89,7 +89,7 @@ def names_table() -> str:
 
 def front_page() -> str:
     """What ``import onbeat`` gives, and the rooms."""
-    out = titled("Python names", "=") + "What ``import onbeat`` gives; :doc:`../python` has an example of each:\n\n"
+    out = titled("Python names", "=") + "The API: what ``import onbeat`` gives (:doc:`examples <../python>`):\n\n"
     out += names_table() + "What is wrong and can be put right is one of these errors:\n\n"
     out += f".. automodule:: onbeat.errors\n   :members: {', '.join(own_names('onbeat.errors'))}\n\n"
     out += titled("Rooms", "-")

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from site_gallery import packed
-from site_pages import places, turned
+from site_pages import labels, places, turned
 
 
 def cells(notebook: Path) -> list[tuple[str, str]]:
@@ -53,13 +53,13 @@ def write_notebook(notebook: Path, work: Path, pages: Path) -> None:
     work.mkdir(parents=True, exist_ok=True)
     names: dict[str, Any] = {"__name__": "__main__"}
     out: list[str] = []
-    where = places(notebook.resolve().parents[1])
+    where, called = places(notebook.resolve().parents[1]), labels(notebook.with_name("index.md").read_text("utf-8"))
     before = Path.cwd()
     os.chdir(work)
     try:
         for number, (kind, text) in enumerate(cells(notebook)):
             if kind != "code":
-                out.append(turned(text, Path("docs", notebook.name), "notebook.md", where))
+                out.append(turned(text, Path("docs", notebook.name), "notebook.md", where, called))
                 continue
             said = execute(text, names)
             out.append(f"```python\n{text}\n```")

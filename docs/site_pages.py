@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT_PAGES = ("ARCHITECTURE", "CONVENTIONS", "CONTRIBUTING", "CHANGELOG")
 _LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
 _FENCE = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
-_ITEM = re.compile(r"^- \[[^\]]*\]\(([^)\s#]+)\)", re.MULTILINE)
+_ITEM = re.compile(r"^- \[([^\]]*)\]\(([^)\s#]+)\)", re.MULTILINE)
 
 
 def places(root: Path) -> dict[Path, str]:
@@ -24,8 +24,16 @@ def places(root: Path) -> dict[Path, str]:
     return found | {Path("README.md"): "index.md"}
 
 
-def turned(text: str, page: Path, place: str, where: dict[Path, str]) -> str:
-    """A page's text with links that lead from its place on the site; what the site does not have is named only."""
+def labels(index: str) -> dict[Path, str]:
+    """What ``docs/index.md`` calls each page, by its path from the root: short names, for the sidebar and for links."""
+    return {Path(os.path.normpath(Path("docs", path))): name for name, path in _ITEM.findall(index)}
+
+
+def turned(text: str, page: Path, place: str, where: dict[Path, str], called: dict[Path, str]) -> str:
+    """A page's text with links that lead from its place on the site; what the site does not have is named only.
+
+    A link that shows the name of a file shows what the page is ``called``: the site has no such files.
+    """
 
     def link(match: re.Match[str]) -> str:
         mark, words, target = match.groups()
@@ -34,6 +42,7 @@ def turned(text: str, page: Path, place: str, where: dict[Path, str]) -> str:
             return match[0]
         meant = Path(os.path.normpath(page.parent / path))
         if meant in where:
+            words = called.get(meant, words) if words.endswith(".md") else words
             to = os.path.relpath(where[meant], Path(place).parent)
             return f"[{words}]({to}{'#' * bool(anchor)}{anchor})"
         if mark:
@@ -50,12 +59,13 @@ def chapters(index: str) -> str:
     out = [head]
     for section in sections:
         title = section.split("\n", 1)[0].removeprefix("## ").strip()
-        pages = [item.removesuffix(".md") for item in _ITEM.findall(section) if item.endswith(".md")]
+        items = [(name, path) for name, path in _ITEM.findall(section) if path.endswith(".md")]
+        pages = [f"{name} <{path.removesuffix('.md')}>" for name, path in items]
         if title == "Reference":
             section = (
                 section.rstrip() + "\n- [Python names](api/index.rst): every room's modules, functions and values\n\n"
             )
-            pages.append("api/index")
+            pages.append("Python names <api/index>")
         listed = "\n".join(pages)
         toctree = f"```{{toctree}}\n:hidden:\n:caption: {title}\n\n{listed}\n```\n\n" if pages else ""
         out.append(f"{section.rstrip()}\n\n{toctree}")
@@ -65,11 +75,11 @@ def chapters(index: str) -> str:
 def write_pages(root: Path, folder: Path) -> None:
     """Write all written pages of the repository into ``folder``, and the pictures they show."""
     shutil.rmtree(folder, ignore_errors=True)
-    where = places(root)
+    where, called = places(root), labels((root / "docs" / "index.md").read_text(encoding="utf-8"))
     for page, place in where.items():
         if page == Path("README.md") or page.suffix != ".md":
             continue
-        text = turned((root / page).read_text(encoding="utf-8"), page, place, where)
+        text = turned((root / page).read_text(encoding="utf-8"), page, place, where, called)
         target = folder / place
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(chapters(text) if place == "index.md" else text, encoding="utf-8")

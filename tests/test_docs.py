@@ -205,6 +205,47 @@ def test_every_page_is_on_the_site(site: Site):
     assert "make_dance(" in text_of(site.pages / "api" / "dance.html")
 
 
+def test_links_of_the_site_lead_to_pages_and_places_on_them(site: Site):
+    pages = {page.resolve(): page.read_text(encoding="utf-8") for page in site.pages.rglob("*.html")}
+    places = {page: set(re.findall(r'\bid="([^"]+)"', text)) for page, text in pages.items()}
+    wrong, tried = [], 0
+    for page, text in pages.items():
+        for link in set(re.findall(r'<a\b[^>]*href="([^"]+)"', text)):
+            path, _, place = html.unescape(link).partition("#")
+            if "://" in link or not (path or place):
+                continue
+            tried += 1
+            meant = (page.parent / path).resolve() if path else page
+            there = meant.exists() and (not place or meant not in places or place in places[meant])
+            wrong += [] if there else [f"{page.name}: {link}"]
+    assert tried > 1000
+    assert not wrong
+
+
+def test_the_site_calls_pages_by_their_short_names_and_shows_no_names_of_files(site: Site):
+    front = text_of(site.pages / "index.html")
+    beside = text_of(site.pages / "robot.html").split("How it works", 1)[0]
+    assert "Fetching data" in front
+    assert "Fetching data" in beside, "the sidebar has the short name, not the page's title"
+    shown = re.compile(r"<a\b[^>]*>(?:<[^>]*>)*[a-z_]+\.md<")
+    assert not [page.name for page in site.pages.glob("*.html") if shown.search(page.read_text(encoding="utf-8"))]
+
+
+def test_a_search_of_the_site_finds_guides_before_lists_of_names(site: Site):
+    kept = (ROOT / "docs" / "site" / "search.js").read_text(encoding="utf-8")
+    assert kept.strip() in (site.pages / "_static" / "language_data.js").read_text(encoding="utf-8")
+    (names,) = re.findall(r"/\^\((.*?)\)/\.test", kept)
+    later = {page for page in site.pages.rglob("*.html") if re.match(names, page.relative_to(site.pages).as_posix())}
+    assert {site.pages / "architecture.html", site.pages / "api" / "music.html"} <= later
+    assert not later & {site.pages / f"{name}.html" for name in ("robot", "live", "files", "keyposes", "retime")}
+
+
+def test_signatures_of_the_site_show_no_workings(site: Site):
+    texts = {page.name: text_of(page) for page in (site.pages / "api").glob("*.html")}
+    assert not [name for name, text in texts.items() if "ForwardRef" in text or "msgspec.Meta" in text]
+    assert "Its fields are in Documents" in texts["music.html"]
+
+
 def test_the_site_asks_nothing_of_a_network(site: Site):
     asking = re.compile(r"<(?:script|link|img|iframe)\b[^>]*(?:src|href)=[\"'](?:https?:)?//")
     assert not [page.name for page in site.pages.rglob("*.html") if asking.search(page.read_text(encoding="utf-8"))]
