@@ -27,9 +27,9 @@ def command(folder: Path) -> list[str]:
 
 
 @contextmanager
-def house(folder: Path, largest: int = 1 << 20, **bound: Any) -> Iterator[TestClient]:
+def house(folder: Path, largest: int = 1 << 20, workers: int = 2, **bound: Any) -> Iterator[TestClient]:
     """A client of a studio whose project is ``folder / "project"``."""
-    studio = Studio.open(folder / "project", 2, largest, command(folder))
+    studio = Studio.open(folder / "project", workers, largest, command(folder))
     app = make_app(studio, **bound)
     with TestClient(app, base_url=ADDRESS) as client:
         yield client

@@ -2,43 +2,23 @@
 
 from __future__ import annotations
 
-import base64
-import io
-import json
 import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-from urllib.request import Request, urlopen
 
 import numpy as np
 import pytest
-import soundfile
 
+from browser.studio_page import BPM, SECONDS, Opened, song, studio
 from onbeat.examples.troupe import dance_library
 from onbeat.formats.write import write_motion
 from onbeat.viewer.contract import PathData, unpack_path
-from sounds import HEARD_RATE, beat_times, hat, kick, mix, piano, snare
+from sounds import beat_times
 
 pytestmark = pytest.mark.browser
-STUDIO = [sys.executable, "-c", "from onbeat.cli import main; main()", "studio"]
-STATE = "window.onbeatStudio.state()"
-LONG = 90_000  # [ms] for a busy machine
-SECONDS = 10.0
-BPM = 112.0
 
-DROP = """files => {
-    const held = new DataTransfer();
-    for (const [name, base64] of files) {
-        held.items.add(new File([Uint8Array.from(atob(base64), letter => letter.charCodeAt(0))], name));
-    }
-    for (const kind of ["dragenter", "dragover", "drop"]) {
-        document.body.dispatchEvent(new DragEvent(kind, { dataTransfer: held, bubbles: true, cancelable: true }));
-    }
-}"""
 PLAYED = """async () => {
     const seen = [];
     while (seen.length < 12) {
@@ -114,40 +94,10 @@ class Given:
     seconds: str  # of it that are danced to
 
 
-class Opened:
-    """The studio's page, and whatever it complained about."""
-
-    def __init__(self, page: Any, address: str) -> None:
-        self.page = page
-        self.complaints: list[str] = []
-        page.set_default_timeout(LONG)
-        page.on("console", lambda message: self.complaints.append(f"{message.type}: {message.text}"))
-        page.on("pageerror", lambda error: self.complaints.append(f"exception: {error}"))
-        page.goto(address)
-        page.wait_for_selector("#shelf .card")
-
-    def state(self) -> dict[str, Any]:
-        return self.page.evaluate(STATE)
-
-    def drop(self, files: dict[str, bytes]) -> None:
-        self.page.evaluate(DROP, [[name, base64.b64encode(data).decode()] for name, data in files.items()])
-
-
 @pytest.fixture(scope="module")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """A studio that neither composes its own song nor builds the troupe's moves: both take long, and are not danced."""
-    project = tmp_path_factory.mktemp("studio") / "evening"
-    words = [*STUDIO, str(project), "--port", "0", "--no-open"]
-    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    try:
-        assert process.stdout is not None
-        address = process.stdout.readline().strip()
-        for job in json.load(urlopen(f"{address}api/project"))["jobs"]:
-            urlopen(Request(f"{address}api/jobs/{job['id']}/cancel", method="POST")).close()
+    with studio(tmp_path_factory.mktemp("studio") / "evening") as address:
         yield address
-    finally:
-        process.terminate()
-        process.wait(20)
 
 
 @pytest.fixture(scope="module")
@@ -155,19 +105,6 @@ def opened(address: str, chromium: Any) -> Iterator[Opened]:
     context = chromium.new_context(viewport={"width": 1024, "height": 480}, accept_downloads=True)
     yield Opened(context.new_page(), address)
     context.close()
-
-
-def song() -> bytes:
-    """A small band at a steady tempo, whose chords change with the bars."""
-    rng = np.random.default_rng(0)
-    beats = beat_times(BPM, SECONDS)
-    tones = (220.0, 174.6, 261.6, 196.0)
-    events = [(t, kick() if i % 2 == 0 else snare(rng)) for i, t in enumerate(beats)]
-    events += [(t + 30 / BPM, hat(rng)) for t in beats]
-    events += [(t, piano(tones[i // 4 % 4] * part, 2.0)) for i, t in enumerate(beats[::4]) for part in (1.0, 1.25, 1.5)]
-    sound = io.BytesIO()
-    soundfile.write(sound, mix(SECONDS, events).samples, HEARD_RATE, format="WAV")
-    return sound.getvalue()
 
 
 def motions(folder: Path) -> dict[str, bytes]:
@@ -299,6 +236,33 @@ def test_everything_has_a_name_is_reached_by_tab_and_can_be_read(opened: Opened)
         for _ in range(2):
             assert page.evaluate(FAINT) == [], view
             page.click("#dark")
+
+
+def test_what_was_entered_beside_a_dance_is_there_after_back(opened: Opened) -> None:
+    page = opened.page
+    page.click("#shelf a[href^='#dance/']")
+    page.wait_for_selector(".dance .track")
+    for label, value in (("Format", "mp4"), ("Size", "1080x1920"), ("Robot", "talos")):
+        page.get_by_label(label, exact=True).select_option(value)
+    page.get_by_label("Speed of the music").fill("1.25")
+    page.check("text=Flashes on the beats")
+    page.evaluate("window.onbeatStudio.seek(1)")
+    page.keyboard.press("[")
+    page.evaluate("window.onbeatStudio.seek(3)")
+    page.keyboard.press("]")
+    [lock] = opened.state()["locks"]
+    for leave in ("location.hash = 'start'", "location.reload()"):
+        page.evaluate(leave)
+        if "hash" in leave:
+            page.wait_for_selector(".view.start")
+            page.go_back()
+        page.wait_for_selector(".dance .track")
+        entered = [page.get_by_label(label, exact=True).input_value() for label in ("Format", "Size", "Robot")]
+        assert entered == ["mp4", "1080x1920", "talos"]
+        assert page.get_by_label("Speed of the music").input_value() == "1.25"
+        assert page.is_checked("text=Flashes on the beats")
+        assert page.is_enabled("text=Retime")
+        assert opened.state()["locks"] == [lock]
 
 
 def test_each_folder_that_is_dropped_keeps_to_itself(opened: Opened, tmp_path: Path) -> None:

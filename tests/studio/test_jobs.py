@@ -206,3 +206,13 @@ def test_a_job_that_is_cancelled_in_the_moment_it_begins_does_not_begin(tmp_path
 
     assert run(begun()) == "cancelled"
     assert logged(tmp_path, "begin") == ["build"]
+
+
+def test_what_the_user_wants_is_done_before_what_every_project_has(tmp_path: Path):
+    (tmp_path / "hold").touch()
+    with house(tmp_path, workers=1) as client:
+        until(lambda: logged(tmp_path, "begin"))
+        client.post("/api/motions?name=walk.bvh", content=b"HIERARCHY\n")
+        (tmp_path / "hold").unlink()
+        settled(client)
+    assert logged(tmp_path, "begin") == ["the embedded song", "look", "build"]

@@ -14,7 +14,8 @@ from onbeat.dance.document import DanceDocument
 from onbeat.errors import OnbeatError
 from onbeat.examples.troupe import dance_library
 from onbeat.formats.bvh_write import write_bvh
-from onbeat.motion import Motion
+from onbeat.formats.trc_write import write_trc
+from onbeat.motion import Markers, Motion
 from onbeat.studio import advice
 from onbeat.studio.clip_list import ClipList
 from onbeat.studio.song_view import song_view
@@ -198,6 +199,41 @@ def test_motions_are_looked_at_and_built_into_a_library(tmp_path: Path, swinger:
     assert built.clips == 1
     assert built.note == "1 of 2 motions are left out"
     assert ClipList.read(tmp_path / "list").problems[0].startswith("empty.bvh")
+
+
+def test_a_rate_that_no_file_stores_is_assumed_told_and_said(tmp_path: Path):
+    stands = "0,0,0.79,0,0,0,1"
+    table = "".join(f"{stands},{','.join([f'{0.01 * (k % 7):.2f}'] * 29)}\n" for k in range(120))
+    (tmp_path / "x.csv").write_text(table)
+    file = ("motion-1", str(tmp_path / "x.csv"), "bow.csv")
+    [assumed] = done(LookTask(str(tmp_path / "look"), [file])).seen
+    assert (assumed.rate_stored, assumed.fps) == (False, 30.0)
+    assert "say it on the motion's page" in assumed.note
+    [said] = done(LookTask(str(tmp_path / "look"), [file], {"motion-1": 60.0})).seen
+    assert (said.fps, said.seconds) == (60.0, pytest.approx(assumed.seconds / 2, abs=1e-3))
+    assert "assumed" not in said.note
+    write_trc(Markers(("LASI",), np.ones((1, 1, 3)), fps=100), tmp_path / "y.trc")
+    (tmp_path / "y.trc").write_text((tmp_path / "y.trc").read_text().replace("\n100.00", "\nfast", 1))
+    [asks] = done(LookTask(str(tmp_path / "look"), [("motion-2", str(tmp_path / "y.trc"), "odd.trc")])).seen
+    assert "say it on the motion's page" in (asks.error or "")
+    assert not asks.rate_stored
+
+
+def test_a_library_has_its_motions_at_the_rates_that_were_said(tmp_path: Path, moves: str, swinger: Motion):
+    write_bvh(swinger, tmp_path / "x1.bvh")
+    files = [(str(tmp_path / "x1.bvh"), "walk.bvh")]
+    spans: list[list[float]] = []
+    for rates in ({}, {files[0][0]: 2 * swinger.fps}, {}):
+        done(BuildTask(str(tmp_path / "list"), str(tmp_path / "library"), files, rates))
+        spans.append([seconds for _, seconds in ClipList.read(tmp_path / "list").clips])
+    assert spans[0] == spans[2] == [pytest.approx(swinger.duration, abs=0.05)]
+    assert spans[1] == [pytest.approx(swinger.duration / 2, abs=0.05)]
+
+
+def test_less_than_was_asked_for_is_told(tmp_path: Path, source: SoundSource, moves: str):
+    found = done(order(tmp_path / "short", source, library=moves, start=3.0, seconds=60.0))
+    assert found.seconds == pytest.approx(5.0, abs=0.02)
+    assert found.note == "60 seconds were asked for; the song ends after 5.0"
 
 
 def test_a_picture_is_no_song_and_is_told_so_by_its_name(tmp_path: Path):

@@ -8,6 +8,7 @@ _SAID = (
     (r"choose (a|another) stretch(?: of it)? with --start and --seconds", r"choose \1 stretch of the song"),
     (r"take fewer --seconds", "dance to fewer seconds"),
     (r"play the plan as it is with --no-warp", "choose another stretch of the song or other moves"),
+    (r"say it with --source-fps", "where that is wrong, say it on the motion's page"),
     (r"say it with --[^;\n)]*(?:\([^)]*\))?", "where that is wrong, save the file at that rate and drop it again"),
     (r"build one with `onbeat moves build[^`]*`", "make the library again"),
     (r"write one with `onbeat dance`", "dance it again"),

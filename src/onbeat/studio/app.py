@@ -12,7 +12,7 @@ from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from onbeat.errors import OnbeatError
-from onbeat.studio import dances, exports, libraries, motions, songs
+from onbeat.studio import dances, exports, libraries, motion_rates, motions, songs
 from onbeat.studio.again import try_again
 from onbeat.studio.answers import answer, refusal, refused
 from onbeat.studio.guard import Guard
@@ -62,6 +62,8 @@ def _routes() -> list[Route]:
         Route("/api/songs/{id}/beats", songs.correct_beats, methods=["PUT"]),
         Route("/api/songs/{id}/beats", songs.restore_beats, methods=["DELETE"]),
         Route("/api/motions", motions.take_motions, methods=["POST"]),
+        Route("/api/motions/rate", motion_rates.say_rate, methods=["PUT"]),
+        Route("/api/motions/{id}/skeleton", motions.choose_skeleton, methods=["PUT"]),
         Route("/api/motions/{id}", motions.show_motion, methods=["GET"]),
         Route("/api/motions/{id}", motions.remove_motion, methods=["DELETE"]),
         Route("/api/libraries", libraries.make_library, methods=["POST"]),

@@ -65,7 +65,7 @@ def is_archive(path: Path) -> bool:
 
 
 class Found(NamedTuple):
-    """Motion files with the names that they had, and the names of what is no motion and beside none."""
+    """Motion files, and skeletons beside none, with the names that they had; and the names of what is neither."""
 
     files: list[tuple[Path, str]]
     passed_over: list[str]
@@ -109,6 +109,8 @@ def unpacked(archive: Path, folder: Path, largest: int) -> Found:
         raise OnbeatError(f"the archive cannot be read: {error}; pack it again without a password") from None
     found = [file for file in motion_files(folder) if file in told] if told else []
     used = {*found, *_beside(found)}
+    found += [path for path in told if path.suffix == ".asf" and path.parent not in used]
+    used.update(found)
     for path in [path for path in told if path not in used and not (path.suffix == ".asf" and path.parent in used)]:
         path.unlink()
         other.append(told.pop(path))
@@ -209,21 +211,21 @@ def _copied(source: IO[bytes], file: IO[bytes], entry: zipfile.ZipInfo, left: _L
 
 
 def one_file(upload: Path, folder: Path, name: str) -> Found:
-    """A single motion file, moved into a folder under a plain name.
+    """A single motion file or skeleton, moved into a folder under a plain name.
 
     Raises
     ------
     OnbeatError
         If its ending is that of no motion file.
     """
-    if name.lower().endswith(BESIDE):
-        if name.lower().endswith(".toml") and not is_roles_file(name):
+    if name.lower().endswith(".toml"):
+        if not is_roles_file(name):
             raise OnbeatError(
                 f"{name!r} is nothing that is taken here; roles of joints are told by a file called roles.toml, "
                 "or NAME.roles.toml for one motion file"
             )
         raise OnbeatError(f"{name!r} is no motion by itself: drop it together with its motion files, or in one .zip")
-    if not name.lower().endswith(motion_endings()):
+    if not name.lower().endswith((*motion_endings(), ".asf")):
         endings = ", ".join(motion_endings())
         raise OnbeatError(f"{name!r} has the ending of no motion file; expected one of {endings}, or a .zip of them")
     path = folder / plain_name(name)

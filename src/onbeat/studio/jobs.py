@@ -20,7 +20,7 @@ from onbeat.studio.crew import COMMAND, Worker
 from onbeat.studio.events import Events
 from onbeat.studio.outcomes import finish, give_up
 from onbeat.studio.project import Project
-from onbeat.studio.records import OVER, JobRecord
+from onbeat.studio.records import EMBEDDED_SONG, OVER, TROUPE, JobRecord
 from onbeat.studio.tasks import Done, Progress, Task
 from onbeat.studio.wire import JobItem, JobKind
 
@@ -83,7 +83,8 @@ class Jobs:
 
     def look(self) -> None:
         """Begin what can be begun."""
-        for record in list(self._project.document.jobs.values()):
+        records = self._project.document.jobs.values()
+        for record in sorted(records, key=lambda record: record.item.of in (EMBEDDED_SONG, TROUPE)):  # the user's first
             if self._stopping or len(self._running) >= self._workers:
                 return
             item = record.item

@@ -26,6 +26,8 @@ async def make_library(request: Request) -> Response:
         found = studio.item("motions", id, MotionItem)
         if found.state in ("failed", "cancelled"):
             raise FieldError("motions", f"{found.name} cannot be used: {found.error or 'it was not looked at'}")
+        if found.lacks:
+            raise FieldError("motions", f"{found.name} cannot be used yet: {found.lacks}")
     with studio.folder.change() as document:
         id = document.new_id("library")
         item = LibraryItem(id, clean_name(told.name, "library"), motions=motions)

@@ -39,7 +39,8 @@ def task_of(project: Project, job: JobItem, out: Path) -> Task:
             return ListenTask(str(out), _source(project, job.of))
         case "look":
             motions = [motion for motion in document.motions.values() if motion.job == job.id]
-            return LookTask(str(out), [(m.id, str(project.given(m.id)), m.name) for m in motions])
+            files = [(m.id, str(project.given(m.id)), m.name) for m in motions]
+            return LookTask(str(out), files, {m.id: m.rate for m in motions if m.rate is not None})
         case "build":
             return _build(project, document.libraries[job.of], out)
         case "dance":
@@ -58,12 +59,14 @@ def _source(project: Project, id: str) -> SoundSource:
 
 
 def _build(project: Project, item: LibraryItem, out: Path) -> BuildTask:
-    names = {id: project.document.motions[id].name for id in item.motions if id in project.document.motions}
-    if len(names) < len(item.motions):
+    motions = [project.document.motions[id] for id in item.motions if id in project.document.motions]
+    if len(motions) < len(item.motions):
         raise OnbeatError(f"motions of the library {item.name} are gone; make another")
     folder = project.place("libraries", item.id)
     folder.mkdir(exist_ok=True)
-    return BuildTask(str(out), str(folder), [(str(project.given(id)), name) for id, name in names.items()])
+    files = {motion.id: str(project.given(motion.id)) for motion in motions}
+    rates = {files[motion.id]: motion.rate for motion in motions if motion.rate is not None}
+    return BuildTask(str(out), str(folder), [(files[motion.id], motion.name) for motion in motions], rates)
 
 
 def _dance(project: Project, item: DanceItem, out: Path) -> DanceTask:

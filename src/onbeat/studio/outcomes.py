@@ -85,7 +85,7 @@ def _ready(project: Project, item: Item, done: Done, seen: dict[str, MotionSeen]
 
 def _seen(item: MotionItem, found: MotionSeen) -> MotionItem:
     if found.error is not None:
-        return replace(item, state="failed", job=None, error=found.error)
+        return replace(item, state="failed", job=None, error=found.error, rate_stored=_is_rate_stored(item, found))
     return replace(
         item,
         state="ready",
@@ -95,4 +95,10 @@ def _seen(item: MotionItem, found: MotionSeen) -> MotionItem:
         fps=found.fps,
         body=found.body,
         note=found.note,
+        rate_stored=_is_rate_stored(item, found),
     )
+
+
+def _is_rate_stored(item: MotionItem, found: MotionSeen) -> bool:
+    """What was seen without the user's word; with it, nobody asks the file."""
+    return found.rate_stored if item.rate is None else item.rate_stored

@@ -30,18 +30,26 @@ class ListenTask(msgspec.Struct, frozen=True, tag="listen"):
 
 
 class LookTask(msgspec.Struct, frozen=True, tag="look"):
-    """Look at motion files, each an id, a path and a name: ID.json of each that can be read."""
+    """Look at motion files, each an id, a path and a name: ID.json of each that can be read.
+
+    ``rates`` are the frames a second of those of which the user said so, by their ids.
+    """
 
     out: str
     files: list[tuple[str, str, str]]
+    rates: dict[str, float] = {}
 
 
 class BuildTask(msgspec.Struct, frozen=True, tag="build"):
-    """Build a motion library in ``folder`` of files (path and name), or the troupe's for none: clips.json."""
+    """Build a motion library in ``folder`` of files (path and name), or the troupe's for none: clips.json.
+
+    ``rates`` are the frames a second of those of which the user said so, by their paths.
+    """
 
     out: str
     folder: str
     files: list[tuple[str, str]]
+    rates: dict[str, float] = {}
 
 
 class KeptDance(msgspec.Struct, frozen=True):
@@ -116,6 +124,7 @@ class MotionSeen(msgspec.Struct, frozen=True):
     fps: float = 0.0
     body: str = ""
     note: str = ""
+    rate_stored: bool = True
 
 
 class Done(msgspec.Struct, frozen=True, tag="done"):

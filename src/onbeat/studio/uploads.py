@@ -42,7 +42,7 @@ async def received(request: Request, project: Project, largest: int) -> Path:
     try:
         size = await _written(request, folder / UPLOAD, largest)
         if not size:
-            raise OnbeatError("the file is empty (0 bytes); send its bytes as the body")
+            raise OnbeatError("the file is empty (0 bytes): save or copy it again")
     except OSError as error:
         discard(folder / UPLOAD)
         raise FullError(f"the file cannot be kept: {error.strerror or error}") from None

@@ -53,7 +53,12 @@ class SongItem(msgspec.Struct, frozen=True):
 
 
 class MotionItem(msgspec.Struct, frozen=True):
-    """A motion file of the project; ``body`` says in words who moves, ``note`` what was guessed of the file."""
+    """A motion file of the project; ``body`` says in words who moves, ``note`` what was guessed of the file.
+
+    ``fps`` are its frames a second: those that the user said (``rate``), else those it stores, or those that were
+    assumed where ``rate_stored`` is false. ``lacks`` says what a file that waits without a job waits for: an AMC for
+    its skeleton, or a skeleton for its motions.
+    """
 
     id: str
     name: str
@@ -64,6 +69,9 @@ class MotionItem(msgspec.Struct, frozen=True):
     fps: float = 0.0
     body: str = ""
     note: str = ""
+    rate: float | None = None
+    rate_stored: bool = True
+    lacks: str = ""
 
 
 class LibraryItem(msgspec.Struct, frozen=True):
@@ -240,10 +248,34 @@ class MotionView(msgspec.Struct, frozen=True):
 
 
 class TakenMotions(msgspec.Struct, frozen=True):
-    """What was taken of a motion file or an archive of them, and names of what is in the archive and was not."""
+    """What was taken of a motion file or an archive of them, and names of what is in the archive and was not.
+
+    ``found`` are motions that waited for a skeleton that has come now.
+    """
 
     motions: list[MotionItem]
     passed_over: list[str]
+    found: list[MotionItem] = []
+
+
+class RateOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Frames a second of motions whose files store none, or a wrong rate; what their files say for none."""
+
+    motions: list[str]
+    fps: float | None
+
+
+class RatedMotions(msgspec.Struct, frozen=True):
+    """Motions that are read again at another rate, and the libraries that are built again of them."""
+
+    motions: list[MotionItem]
+    libraries: list[LibraryItem]
+
+
+class SkeletonOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The skeleton, one of the project's motions that is an ASF file, with which an AMC file is to be read."""
+
+    skeleton: str
 
 
 class LibraryOrder(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -320,8 +352,9 @@ class EventData(msgspec.Struct, frozen=True, omit_defaults=True):
 
 STRUCTS = (
     JobItem, SongItem, MotionItem, LibraryItem, KeptStretch, DanceOrder, DanceItem, FilmOrder, ExportItem,
-    RobotItem, MethodItem, FormatItem, Project, SongView, BeatsData, MotionView, TakenMotions, LibraryOrder,
-    ClipItem, LibraryView, DanceView, RetimeOrder, RobotOrder, ExportOrder, NameOrder, ErrorData, EventData,
+    RobotItem, MethodItem, FormatItem, Project, SongView, BeatsData, MotionView, TakenMotions, RateOrder,
+    RatedMotions, SkeletonOrder, LibraryOrder, ClipItem, LibraryView, DanceView, RetimeOrder, RobotOrder,
+    ExportOrder, NameOrder, ErrorData, EventData,
 )  # fmt: skip
 """All classes that go over the wire, parts before the whole."""
 

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from onbeat.errors import OnbeatError
+from onbeat.formats.read import read_motion
+from onbeat.moves.build import build_recordings
+from onbeat.moves.engine import Engine
+from onbeat.moves.generations import Options
 from onbeat.moves.library import MoveLibrary
+from onbeat.moves.recordings import Recording, find_recordings
 from onbeat.studio.advice import here
 from onbeat.studio.clip_list import ClipList
 from onbeat.studio.tasks import BuildTask, Done
@@ -29,7 +38,6 @@ def built(task: BuildTask, tell: Tell) -> Done:
 
 
 def _library(task: BuildTask, tell: Tell) -> MoveLibrary:
-    from onbeat.moves.build import build_library
     from onbeat.moves.embedded import embedded_library
 
     def step(what: str, share: float) -> None:
@@ -37,7 +45,18 @@ def _library(task: BuildTask, tell: Tell) -> MoveLibrary:
 
     if not task.files:
         return embedded_library(step=step)
-    return build_library([Path(path) for path, _ in task.files], Path(task.folder) / MOVES, step=step)
+    found = find_recordings([Path(path) for path, _ in task.files])
+    recordings = [_at_rate(recording, task.rates) for recording in found]
+    return build_recordings(recordings, Path(task.folder) / MOVES, Options(), step=step, engine=Engine(workers=2))
+
+
+def _at_rate(recording: Recording, rates: Mapping[str, float]) -> Recording:
+    """The recording at the rate that the user said, if there is one: as another recording, for it moves otherwise."""
+    rate = rates.get(str(recording.path))
+    if rate is None or recording.path is None:
+        return recording
+    digest = hashlib.sha256(f"{recording.digest} {rate!r}".encode()).hexdigest() if recording.digest else ""
+    return replace(recording, digest=digest, read=partial(read_motion, recording.path, rate), path=None)
 
 
 def _named(text: str, task: BuildTask) -> str:

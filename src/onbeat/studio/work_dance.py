@@ -6,6 +6,7 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+from msgspec import structs
 from threadpoolctl import threadpool_limits
 
 from onbeat.dance.make import LONGEST, Dance, make_dance
@@ -42,11 +43,19 @@ def danced(task: DanceTask, tell: Tell) -> Done:
 
         order = RetimeTask(str(out), task.name, str(out), task.speed, task.robot)
         graph = drawn_graph(library, [move.clip for move in dance.document.moves])
-        return again_as(order, stored, graph, tell)
+        done = again_as(order, stored, graph, tell)
+        return structs.replace(done, note="\n".join(filter(None, (_shortened(task, song), done.note))))
     stored.write(out, SHOWN)
     write_scene(out, dance_page_data(dance, library, None, stored.keyposes))
     f50 = dance.document.metrics["beats"]["f50"]
-    return Done(seconds=dance.motion.duration, tempo=dance.song.tempo, f50=f50)
+    return Done(seconds=dance.motion.duration, tempo=dance.song.tempo, f50=f50, note=_shortened(task, song))
+
+
+def _shortened(task: DanceTask, song: Song) -> str:
+    """That less is danced than was asked for, where the song ends before."""
+    if task.seconds is None or task.seconds <= song.duration + 0.05:
+        return ""
+    return f"{task.seconds:g} seconds were asked for; the song ends after {song.duration:.1f}"
 
 
 def danced_song(task: DanceTask, tell: Tell) -> Song:

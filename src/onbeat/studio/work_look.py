@@ -13,6 +13,7 @@ from onbeat._shapes import Times
 from onbeat.errors import BodyError, OnbeatError, PlanError
 from onbeat.files import write_atomically
 from onbeat.formats.notes import Note, noted
+from onbeat.formats.rates import ASK, RateWarning
 from onbeat.formats.read import read_motion
 from onbeat.keyposes.extract import Keyposes, find_keyposes
 from onbeat.keyposes.motion_tempo import motion_beats
@@ -38,11 +39,12 @@ def looked(task: LookTask, tell: Tell) -> Done:
     for number, (id, path, name) in enumerate(task.files):
         tell("looking", number / len(task.files), name)
         try:
-            seen.append(_seen(Path(task.out), id, Path(path), name))
+            seen.append(_seen(Path(task.out), id, Path(path), name, task.rates.get(id)))
         except OnbeatError as error:
-            if len(task.files) == 1:
+            asks = ASK in str(error)
+            if len(task.files) == 1 and not asks:
                 raise OnbeatError(_named(str(error), Path(path), name)) from None
-            seen.append(MotionSeen(id, error=_named(str(error), Path(path), name)))
+            seen.append(MotionSeen(id, error=_named(str(error), Path(path), name), rate_stored=not asks))
     return Done(seen=seen)
 
 
@@ -53,16 +55,17 @@ def _named(text: str, path: Path, name: str) -> str:
     return here(text).replace(str(path), name).replace(f"{path.parent}/", "").replace(path.name, name)
 
 
-def _seen(out: Path, id: str, path: Path, name: str) -> MotionSeen:
+def _seen(out: Path, id: str, path: Path, name: str, rate: float | None) -> MotionSeen:
     with noted() as notes, warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always", UserWarning)
-        motion = read_motion(path)
+        motion = read_motion(path, rate)
         if motion.duration > LONGEST:
             raise OnbeatError(f"{name} lasts {motion.duration / 60:.0f} minutes; one of up to 30 is taken: cut it")
         told = _named(_note(notes, [str(w.message) for w in warned]), path, name)
         view = motion_view(id, name, motion, told)
     write_atomically(out / f"{id}.json", msgspec.json.encode(view))
-    return MotionSeen(id, None, view.seconds, view.fps, view.body, view.note)
+    stored = not any(issubclass(warning.category, RateWarning) for warning in warned)
+    return MotionSeen(id, None, view.seconds, view.fps, view.body, view.note, stored)
 
 
 def motion_view(id: str, name: str, motion: Motion, note: str = "") -> MotionView:

@@ -10,18 +10,19 @@ const SAME = 0.004; // [s]
 
 export class BeatSheet {
   beats: readonly Beat[] = [];
+  changed: () => void = () => undefined; // is called after every change
   private past: (readonly Beat[])[] = [];
   private future: (readonly Beat[])[] = [];
 
-  constructor(
-    readonly duration: number,
-    private readonly changed: () => void,
-  ) {}
+  constructor(readonly duration: number) {}
 
-  /** What the server has: there is nothing before it to go back to. */
+  /** What the server has: where that is what is here, all steps stay; other beats are a step more. */
   open(beats: readonly number[], downbeats: readonly number[]): void {
-    this.beats = joined(beats, downbeats);
-    [this.past, this.future] = [[], []];
+    const told = joined(beats, downbeats);
+    if (alike(told, this.beats)) return;
+    if (this.beats.length) this.past.push(this.beats);
+    this.beats = told;
+    this.future = [];
   }
 
   /** Other beats in place of these, which can be undone. */
@@ -152,4 +153,8 @@ export class BeatSheet {
 
 function joined(beats: readonly number[], downbeats: readonly number[]): Beat[] {
   return beats.map((time) => ({ time, down: downbeats.some((down) => Math.abs(down - time) < SAME) }));
+}
+
+function alike(one: readonly Beat[], other: readonly Beat[]): boolean {
+  return one.length === other.length && one.every(({ time, down }, i) => down === other[i].down && Math.abs(time - other[i].time) < SAME);
 }

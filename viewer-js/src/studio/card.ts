@@ -2,7 +2,7 @@
 
 import type { JobItem } from "./contract";
 import { h, say } from "./elements";
-import { left } from "./words";
+import { isSkeleton, left } from "./words";
 
 export interface CardData {
   kind: "song" | "motion" | "library" | "dance";
@@ -13,6 +13,7 @@ export interface CardData {
   error: string | null;
   job?: JobItem;
   kept?: boolean; // it is always there
+  lacks?: string; // what it waits for that nobody works on
   sending?: number; // 0…1 of its file has gone to the server
 }
 
@@ -42,16 +43,18 @@ export function showCard(element: HTMLElement, one: CardData, here: boolean): vo
   (link.children[0] as HTMLElement).title = one.name;
   say(link.children[1], line(one));
   (link.children[1] as HTMLElement).title = one.state === "ready" ? "" : (one.error ?? line(one));
-  link.children[1].className = one.state === "failed" ? "bad" : one.state === "waiting" ? "soft works" : "soft";
+  link.children[1].className =
+    one.state === "failed" ? "bad" : one.lacks && !isSkeleton(one.name) ? "lacks" : one.state === "waiting" && !one.lacks ? "soft works" : "soft";
   if (here) link.setAttribute("aria-current", "page");
   else link.removeAttribute("aria-current");
   const share = one.sending ?? (one.job?.state === "running" ? one.job.share : undefined);
-  bar.hidden = one.state !== "waiting";
+  bar.hidden = one.state !== "waiting" || Boolean(one.lacks);
   if (share === undefined) bar.removeAttribute("value");
   else bar.value = share;
 }
 
-function line({ state, line: ready, error, job, sending }: CardData): string {
+function line({ state, line: ready, error, job, lacks, sending }: CardData): string {
+  if (lacks) return lacks;
   if (sending !== undefined) return `sending, ${Math.round(100 * sending)} %`;
   if (state === "failed") return error ?? "failed";
   if (state === "cancelled") return "cancelled";

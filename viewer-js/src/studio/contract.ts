@@ -41,6 +41,9 @@ export interface MotionItem {
   fps: number;
   body: string;
   note: string;
+  rate: number | null;
+  rate_stored: boolean;
+  lacks: string;
 }
 
 /** A motion library made of ``motions``; that with the id ``troupe`` is always there, made of none. */
@@ -197,6 +200,24 @@ export interface MotionView {
 export interface TakenMotions {
   motions: MotionItem[];
   passed_over: string[];
+  found: MotionItem[];
+}
+
+/** Frames a second of motions whose files store none, or a wrong rate; what their files say for none. */
+export interface RateOrder {
+  motions: string[];
+  fps: number | null;
+}
+
+/** Motions that are read again at another rate, and the libraries that are built again of them. */
+export interface RatedMotions {
+  motions: MotionItem[];
+  libraries: LibraryItem[];
+}
+
+/** The skeleton, one of the project's motions that is an ASF file, with which an AMC file is to be read. */
+export interface SkeletonOrder {
+  skeleton: string;
 }
 
 /** A library to build of motions of the project. */

@@ -3,7 +3,8 @@
 import { ask, words } from "./api";
 import type { DanceItem, DanceView, ExportItem, FormatItem, JobItem } from "./contract";
 import { confirmed, renamed } from "./dialogs";
-import { button, choice, field, h, keyed, offer, say } from "./elements";
+import { button, choice, h, keyed, offer, say } from "./elements";
+import { Entries } from "./entries";
 import { FilmForm } from "./film_form";
 import { notice } from "./notices";
 import { jobBar, showJob } from "./pending";
@@ -45,45 +46,36 @@ export class DanceTools {
   private readonly formatTold = h("small", {});
   private readonly files = h("ul", { class: "files" });
   private readonly exporting: HTMLButtonElement;
+  private readonly putting = button("Put it on", () => void this.act(() => this.onRobot()));
   private readonly retiming = button("Retime", () => void this.act(() => this.retime()));
 
   constructor(
     private readonly store: Store,
     private item: DanceItem,
     view: DanceView,
+    besideAtFirst: string,
   ) {
+    for (const [words, control] of Object.entries({
+      "Side by side with": this.beside,
+      "Speed of the music": this.speed,
+      Robot: this.robot,
+      Format: this.format,
+    })) {
+      control.setAttribute("aria-label", words); // seen is the title of its part
+    }
     this.speed.min = String(Math.min(SLOWEST, item.speed));
     this.speed.max = String(Math.max(FASTEST, item.speed));
     this.speed.value = String(item.speed);
     this.speed.addEventListener("input", () => this.tell());
-    this.format.addEventListener("change", () => this.tell());
+    for (const select of [this.format, this.robot]) select.addEventListener("change", () => this.tell());
     this.exporting = button("Export", () => void this.act(() => this.export()), { class: "text strong" });
     this.root = h(
       "aside",
       { class: "side", "aria-label": "What to do with this dance" },
-      section("Compare", field("Side by side with", this.beside)),
-      section(
-        "Tempo",
-        field("Speed of the music", this.speed),
-        h("div", { class: "row" }, this.speedTold, this.retiming),
-      ),
-      section(
-        "Robot",
-        field("Put it on", this.robot),
-        h(
-          "div",
-          { class: "row end" },
-          button("Put it on", () => void this.act(() => this.onRobot())),
-        ),
-      ),
-      section(
-        "Export",
-        field("Format", this.format),
-        this.film.root,
-        this.formatTold,
-        h("div", { class: "row end" }, this.exporting),
-        this.files,
-      ),
+      section("Side by side with", this.beside),
+      section("Speed of the music", this.speed, h("div", { class: "row" }, this.speedTold, this.retiming)),
+      section("On a robot", h("div", { class: "beside" }, this.robot, this.putting)),
+      section("Export", this.format, this.film.root, this.formatTold, h("div", { class: "row end" }, this.exporting), this.files),
       this.figures(view),
       h(
         "div",
@@ -93,6 +85,12 @@ export class DanceTools {
       ),
     );
     this.update(item);
+    if (besideAtFirst) this.beside.value = besideAtFirst;
+    const { beside, speed, robot, format } = this;
+    const entries = new Entries(store, `dance/${item.id}`);
+    entries.watch({ beside, speed, robot, format, ...this.film.controls });
+    entries.restore();
+    this.tell();
   }
 
   update(item: DanceItem): void {
@@ -124,6 +122,7 @@ export class DanceTools {
     const speed = Number(this.speed.value);
     const tempo = `×${speed.toFixed(2)}`;
     this.retiming.disabled = Math.abs(speed - this.item.speed) < 0.005;
+    this.putting.disabled = !this.robot.value || this.robot.value === this.item.robot; // it is on it already
     say(this.speedTold, `${tempo}, ${pace(speed, this.item.speed)}`);
     this.speed.setAttribute("aria-valuetext", tempo);
     const format = this.store.project?.formats.find(({ name }) => name === this.format.value);
@@ -139,7 +138,12 @@ export class DanceTools {
     row.dataset.state = made.state;
     if (made.state === "ready")
       row.replaceChildren(
-        h("a", { href: `/api/exports/${made.id}`, download: made.file, title: made.file }, made.file),
+        h(
+          "a",
+          { href: `/api/exports/${made.id}`, download: made.file, title: made.file },
+          h("span", {}, made.file.slice(0, made.file.lastIndexOf("."))),
+          made.file.slice(made.file.lastIndexOf(".")),
+        ),
         h("span", { class: "soft" }, size(made.bytes)),
         this.away(made),
       );

@@ -6,9 +6,10 @@ import { Clicks } from "./clicks";
 import type { DanceItem, DanceOrder, DanceView as Danced, SongView } from "./contract";
 import { DanceTools } from "./dance_tools";
 import { button, h, say } from "./elements";
+import { Entries } from "./entries";
 import { GraphView } from "./graph_view";
 import { LockList } from "./lock_list";
-import { Locks } from "./locks";
+import { Locks, type Stretch } from "./locks";
 import { notice } from "./notices";
 import { LIKE } from "./order_view";
 import { palette } from "./palette";
@@ -128,10 +129,14 @@ export class DanceView implements View {
       speed: item.speed,
       duration: scene.duration,
     });
+    const entries = new Entries(store, `locks/${this.id}`);
     const locks = new Locks(scene.duration, () => {
+      entries.set("stretches", JSON.stringify(locks.stretches));
       list.show();
       score.track.stale();
     });
+    const kept = JSON.parse(entries.get("stretches") ?? "[]") as Stretch[];
+    locks.stretches = kept.filter(({ to }) => to <= scene.duration);
     const list = new LockList(locks, () => void this.again(item));
     const score = new Score(scene, player, item.kind === "danced" ? locks : undefined, () =>
       palette(this.studio.dark()),
@@ -139,7 +144,7 @@ export class DanceView implements View {
     const starts = new Set(scene.downbeats);
     const clicks = new Clicks(player, () => ({ times: scene.beats, down: (i) => starts.has(scene.beats[i]) }));
     const transport = new Transport(player, { clicks, looks });
-    const tools = new DanceTools(store, item, danced);
+    const tools = new DanceTools(store, item, danced, this.besideAtFirst);
     const [stage, graph] = [new StageTools(looks), new GraphView(scene, player)];
     this.shown = { danced, score, transport, tools, locks, clicks, stage, graph };
     tools.beside.addEventListener("change", () => void this.compare(tools.beside.value));
@@ -147,9 +152,7 @@ export class DanceView implements View {
     this.lay(item, list.root);
     looks[0].show(scene, "", `${item.name}, danced`);
     stage.tell();
-    if (!this.besideAtFirst) return;
-    tools.beside.value = this.besideAtFirst;
-    void this.compare(this.besideAtFirst);
+    if (tools.beside.value) void this.compare(tools.beside.value);
   }
 
   private async hear(item: DanceItem, score: Score): Promise<void> {
@@ -167,16 +170,25 @@ export class DanceView implements View {
     return tempo > 0 && Math.abs(Math.log2(tempo / danced)) > 0.8 ? ` (${Math.round(tempo)} heard)` : "";
   }
 
+  /** Which part of its song is danced. */
+  private stretch({ song: id, start, speed }: DanceItem, seconds: number): string {
+    const song = this.studio.store.project?.songs.find((one) => one.id === id);
+    const end = start + seconds * speed;
+    if (song && start < 0.05 && end > song.duration - 0.1) return "the whole song";
+    return `from ${exactly(start)} to ${exactly(end)}${song ? ` of ${exactly(song.duration)}` : ""}`;
+  }
+
   private lay(item: DanceItem, locks: HTMLElement): void {
     const { danced, score, transport, tools, stage, graph } = this.shown as Shown;
     const { order } = item;
     const facts = [
       exactly(danced.scene.duration),
+      this.stretch(item, danced.scene.duration),
       item.robot ?? order.method,
       `λ ${order.intensity_weight}`,
       `seed ${order.seed}`,
     ];
-    if (danced.scene.tempo > 0) facts.splice(1, 0, `${Math.round(danced.scene.tempo)} beats a minute${this.heard(item, danced.scene.tempo)}`);
+    if (danced.scene.tempo > 0) facts.splice(2, 0, `${Math.round(danced.scene.tempo)} beats a minute${this.heard(item, danced.scene.tempo)}`);
     if (item.speed !== 1) facts.push(`×${item.speed.toFixed(2)}`);
     if (item.f50 !== null) facts.push(`F50 ${item.f50.toFixed(2)}`);
     this.root.replaceChildren(

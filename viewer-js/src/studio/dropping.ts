@@ -9,6 +9,9 @@ import { notice } from "./notices";
 import { named, Refusals } from "./refusals";
 import type { Store } from "./store";
 import { go } from "./view";
+import { isSkeleton } from "./words";
+
+const FEW = 4; // files that are named one by one
 
 /** A file on its way to the server. */
 export interface Sending {
@@ -96,11 +99,16 @@ export class Dropping {
 
   /** The motion to show, where it is one. */
   private async motions(file: File, told: (share: number) => void): Promise<string | undefined> {
-    const { motions, passed_over } = await send<TakenMotions>("motions", file, told);
-    if (motions.length > 1) notice(`${motions.length} motions came out of ${file.name}.`);
+    const { motions, passed_over, found } = await send<TakenMotions>("motions", file, told);
+    const bodies = motions.filter(({ name }) => !isSkeleton(name));
+    if (bodies.length > 1) notice(`${bodies.length} motions came out of ${file.name}.`);
+    if (found.length) notice(`Read now, for the skeleton has come: ${found.length > FEW ? `${found.length} motions` : named(found.map(({ name }) => name))}.`);
+    const lacking = bodies.filter(({ lacks }) => lacks).map(({ name }) => name);
+    if (bodies.length > 1 && lacking.length) notice(`Waiting for a skeleton (.asf): ${named(lacking)}.`);
     if (passed_over.length)
       notice(`Not taken, for it is no motion and belongs to none: ${named(passed_over)}.`, true);
-    return motions.length === 1 ? motions[0].id : undefined;
+    const shown = bodies.length ? bodies : found.length ? found : motions;
+    return shown.length === 1 || (!bodies.length && found.length) ? shown[0].id : undefined;
   }
 
   private hover(by: number): void {

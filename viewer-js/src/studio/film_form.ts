@@ -24,9 +24,13 @@ export class FilmForm {
       "div",
       { class: "film", role: "group", "aria-label": "The video" },
       field("Size", this.size),
-      field("Pictures a second", this.rate),
+      field("Pictures / s", this.rate),
       tick,
     );
+  }
+
+  get controls(): Record<string, HTMLInputElement | HTMLSelectElement> {
+    return { size: this.size, rate: this.rate, flash: this.flash };
   }
 
   get order(): FilmOrder {

@@ -4,12 +4,14 @@ import { ask } from "./api";
 import type { DanceItem, DanceOrder } from "./contract";
 import { complain } from "./dialogs";
 import { button, choice, field, h, offer, say } from "./elements";
+import { Entries } from "./entries";
 import { type Part, StretchChooser } from "./stretch";
 import { go, type Studio, type View } from "./view";
 import { exactly, plainName } from "./words";
 
 const USUAL = 60; // [s] of a song that are danced, if it is longer
 export const LIKE = "like";
+const SHORTEST = 1; // [s] of a dance
 const MOST_WEIGHT = 2; // of the usual weight of the intensity
 
 export class OrderView implements View {
@@ -44,6 +46,8 @@ export class OrderView implements View {
   private readonly go = h("button", { type: "submit", class: "text strong big", form: "order" }, "Dance");
   private readonly form: HTMLFormElement;
   private readonly stretch: StretchChooser;
+  private readonly entries: Entries;
+  private readonly kept: Entries; // of each song the stretch
   private beside = ""; // the dance that was like it
 
   /** `given` is SONG or SONG/LIBRARY, ids of what is chosen already, or like/DANCE. */
@@ -51,15 +55,14 @@ export class OrderView implements View {
     private readonly studio: Studio,
     given: string,
   ) {
-    for (const [name, select] of Object.entries({
-      song: this.song,
-      library: this.library,
-      method: this.method,
-      robot: this.robot,
-    })) {
-      select.setAttribute("name", name);
+    const { song: which, library: moves, method, robot, weight, speed, seed, name } = this;
+    for (const [words, select] of Object.entries({ song: which, library: moves, method, robot })) {
+      select.setAttribute("name", words);
     }
     this.form = this.made();
+    this.entries = new Entries(studio.store, `order/${given}`);
+    this.entries.watch({ song: which, library: moves, method, robot, weight, speed, seed, name });
+    this.kept = new Entries(studio.store, `stretch/${given}`);
     this.form.addEventListener("submit", (event) => {
       event.preventDefault();
       void this.send();
@@ -67,7 +70,12 @@ export class OrderView implements View {
     this.weight.addEventListener("input", () => this.tell());
     for (const select of [this.method, this.song])
       select.addEventListener("change", () => this.chosen(select === this.song));
-    for (const entry of [this.start, this.seconds]) entry.addEventListener("input", () => this.tell());
+    for (const entry of [this.start, this.seconds])
+      entry.addEventListener("input", () => {
+        this.keepStretch();
+        this.tell();
+      });
+    for (const entry of [this.speed, this.library]) entry.addEventListener("input", () => this.tell());
     this.stretch = new StretchChooser(
       studio,
       () => this.part(),
@@ -81,7 +89,8 @@ export class OrderView implements View {
     if (before) this.like(before);
     else if (song) this.song.value = song;
     if (library && !before) this.library.value = library;
-    this.chosen(before === undefined);
+    this.entries.restore();
+    this.chosen(before === undefined || this.song.value !== before.order.song);
   }
 
   /** The order of an earlier dance, to be changed; both are shown side by side then. */
@@ -183,10 +192,20 @@ export class OrderView implements View {
     return Math.max(Math.round((this.duration - Number(this.start.value)) * 10) / 10, 1);
   }
 
+  /** Another song, whose stretch is that which was entered for it before, or the usual. */
   private chosen(song: boolean): void {
-    if (song) this.seconds.value = String(Math.min(this.longest(), USUAL));
+    if (song) {
+      this.start.value = "0";
+      this.seconds.value = String(Math.min(this.longest(), USUAL));
+    }
+    const kept = this.kept.get(this.song.value);
+    if (kept) [this.start.value, this.seconds.value] = JSON.parse(kept) as [string, string];
     void this.stretch.open(this.song.value);
     this.tell();
+  }
+
+  private keepStretch(): void {
+    this.kept.set(this.song.value, JSON.stringify([this.start.value, this.seconds.value]));
   }
 
   private part(): Part {
@@ -197,6 +216,7 @@ export class OrderView implements View {
   private take(from: number, to: number): void {
     this.start.value = from.toFixed(1);
     this.seconds.value = (to - from).toFixed(1);
+    this.keepStretch();
     this.tell();
   }
 
@@ -215,12 +235,16 @@ export class OrderView implements View {
 
   private tellLength(): void {
     const lacking = [this.song.value ? "" : "song", this.library.value ? "" : "library"].filter(Boolean).join(" and no ");
-    const length = `The song has ${exactly(this.duration)}.`;
-    say(this.lengthTold, lacking ? `No ${lacking} is ready yet: wait until the jobs are done.` : length);
+    const waits = lacking && `No ${lacking} is ready yet: wait until the jobs are done.`;
+    const { words, bad } = this.song.value
+      ? danced(Number(this.start.value), Number(this.seconds.value), this.duration, Number(this.speed.value))
+      : { words: "", bad: false };
+    say(this.lengthTold, [words, waits].filter(Boolean).join(" "));
+    this.lengthTold.className = bad || waits ? "note" : "";
   }
 
   private order(): DanceOrder {
-    const whole = Number(this.seconds.value) >= this.longest() - 0.05;
+    const whole = Math.abs(Number(this.seconds.value) - this.longest()) < 0.05;
     return {
       song: this.song.value,
       library: this.library.value,
@@ -241,6 +265,7 @@ export class OrderView implements View {
     this.problem.hidden = true;
     try {
       const dance = await ask<DanceItem>("POST", "dances", this.order());
+      this.entries.forget("name"); // no two dances by one name
       await this.studio.store.refresh();
       go("dance", this.beside ? `${dance.id}/${this.beside}` : dance.id);
     } catch (error) {
@@ -248,6 +273,17 @@ export class OrderView implements View {
     }
     this.go.disabled = false;
   }
+}
+
+/** What will be danced of a song, in words; `bad` where that is not what was asked for. */
+function danced(from: number, seconds: number, duration: number, speed: number): { words: string; bad: boolean } {
+  if (from > duration - SHORTEST)
+    return { words: `The song has ${exactly(duration)}: begin at second ${Math.max(duration - SHORTEST, 0).toFixed(1)} or before.`, bad: true };
+  const left = duration - from;
+  const short = seconds > left + 0.05;
+  const span = `Danced: ${exactly(from)} to ${exactly(from + Math.min(seconds, left))} of ${exactly(duration)}`;
+  const lasts = speed > 0 && speed !== 1 ? `, in ${exactly(Math.min(seconds, left) / speed)}` : "";
+  return { words: `${span}${lasts}${short ? `: only ${left.toFixed(1)} seconds are left from there` : ""}.`, bad: short };
 }
 
 function number(name: string, value: number, min: number, max: number, step: number | "any" = "any"): HTMLInputElement {

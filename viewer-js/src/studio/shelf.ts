@@ -7,9 +7,10 @@ import { confirmed } from "./dialogs";
 import type { Dropping } from "./dropping";
 import { button, h, keyed, say } from "./elements";
 import { newLibrary } from "./library_dialog";
+import { isGuessed } from "./rate_form";
 import type { Store } from "./store";
 import { go } from "./view";
-import { exactly, plainName, plural } from "./words";
+import { exactly, isSkeleton, plainName, plural } from "./words";
 
 interface Section {
   root: HTMLElement;
@@ -128,14 +129,16 @@ export class Shelf {
   }
 
   private motions({ motions }: Project): CardData[] {
-    return motions.map(({ id, name, state, job, error, seconds, body }) => {
+    return motions.map((item) => {
+      const { id, name, state, job, error, seconds, body, lacks } = item;
       return {
         kind: "motion",
         id,
-        name: plainName(name),
-        line: [exactly(seconds), body].filter(Boolean).join(" · "),
+        name: isSkeleton(name) ? name : plainName(name),
+        line: [exactly(seconds), isGuessed(item) ? `${Math.round(item.fps)} fps assumed` : "", body].filter(Boolean).join(" · "),
         state,
         error,
+        lacks,
         job: this.store.job(job),
       };
     });

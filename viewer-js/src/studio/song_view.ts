@@ -16,6 +16,9 @@ import { go, type Studio, type View } from "./view";
 import { exactly, plainName } from "./words";
 
 const KEEP_AFTER = 500; // [ms] without a change, the beats are sent
+/** Of each song the beats with every step, as long as the page is open; and what is still on its way to the server. */
+const sheets = new Map<string, BeatSheet>();
+const leaving = new Map<string, Promise<void>>();
 
 export class SongView implements View {
   readonly root = h("article", { class: "view song" });
@@ -63,7 +66,7 @@ export class SongView implements View {
 
   close(): void {
     this.clicks?.stop();
-    if (this.waiting !== undefined) void this.keep();
+    if (this.waiting !== undefined) leaving.set(this.id, this.keep());
   }
 
   state(): Record<string, unknown> {
@@ -77,6 +80,7 @@ export class SongView implements View {
 
   private async open(item: SongItem): Promise<void> {
     this.asked = true;
+    await leaving.get(this.id); // what was changed when it was left
     try {
       this.heard = await ask<Heard>("GET", `songs/${this.id}`);
     } catch (error) {
@@ -89,8 +93,10 @@ export class SongView implements View {
 
   private show(item: SongItem, heard: Heard): void {
     const { player } = this.studio;
-    const sheet = new BeatSheet(heard.duration, () => this.changed());
+    const sheet = sheets.get(this.id) ?? new BeatSheet(heard.duration);
+    sheets.set(this.id, sheet);
     this.sheet = sheet;
+    sheet.changed = () => this.changed();
     sheet.open(heard.beats, heard.downbeats);
     const colours = () => palette(this.studio.dark());
     const downs = () => sheet.beats;
@@ -159,7 +165,7 @@ export class SongView implements View {
 
   private restore(): void {
     const told =
-      "Your corrections are put aside, and the beats are again as they were heard. You can undo this as long as the song is open.";
+      "Your corrections are put aside, and the beats are again as they were heard. You can undo this as long as this page is open.";
     confirmed("Back to what was heard?", told, "Take them back", async () => {
       clearTimeout(this.waiting);
       this.waiting = undefined;

@@ -179,7 +179,8 @@ export class Track {
       pen.fillRect(Math.round(x), 13, 1, 7);
       const seconds = i * step;
       const rest = (seconds % 60).toFixed(step < 1 ? 1 : 0).padStart(step < 1 ? 4 : 2, "0");
-      pen.fillText(`${Math.floor((seconds + 1e-6) / 60)}:${rest}`, x + 4, 9);
+      const words = `${Math.floor((seconds + 1e-6) / 60)}:${rest}`;
+      if (x + 4 + pen.measureText(words).width <= span.width) pen.fillText(words, x + 4, 9); // none is cut off
     }
   }
 

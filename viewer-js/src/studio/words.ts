@@ -30,6 +30,11 @@ export function plural(count: number, one: string, many = `${one}s`): string {
   return `${count} ${count === 1 ? one : many}`;
 }
 
+/** Whether a file is the skeleton of others. */
+export function isSkeleton(name: string): boolean {
+  return /\.asf$/i.test(name);
+}
+
 /** A name that somebody can read, of one that is a path or has an ending. */
 export function plainName(name: string): string {
   return (name.split(/[\\/]/).pop() ?? name).replace(/\.[A-Za-z0-9]{1,5}$/, "");
