@@ -110,3 +110,19 @@ def test_mistakes_are_one_line(words, message, files, monkeypatch, capsys) -> No
     assert shown.out == ""
     assert message in shown.err
     assert shown.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("table", [(), ("--json",)])
+def test_a_song_without_beats_is_told(
+    tmp_path: Path,
+    files: tuple[str, str],
+    table: tuple[str, ...],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+):
+    silent = Song(12.0, 0.0, 4, [], [], [], [0.0, 12.0], [0.2, 0.9])
+    (tmp_path / "calm.json").write_bytes(silent.to_json())
+    assert run(monkeypatch, files[0], "--music", str(tmp_path / "calm.json"), *table) == 0
+    assert "onbeat: none of the 0 beats of calm.json falls into the motion" in capsys.readouterr().err
+    assert run(monkeypatch, *files[:1], "--music", files[1], *table) == 0
+    assert "say nothing" not in capsys.readouterr().err

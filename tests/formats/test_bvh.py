@@ -101,6 +101,8 @@ BROKEN = {
     "no frames": (BVH.replace("Frames: 2", "Frames: 0"), "0 frames"),
     "negative frames": (BVH.replace("Frames: 2", "Frames: -2"), "a whole number of frames"),
     "frame time of zero": (BVH.replace("0.0333333", "0"), "a frame time in seconds"),
+    "frame time in milliseconds": (BVH.replace("0.0333333", "33.3333"), "33.3333 s is found, too long for a movement"),
+    "a rate as frame time": (BVH.replace("0.0333333", "30.0"), "and say it with --source-fps"),
     "no frame time": (BVH.replace("Frame Time: 0.0333333\n", ""), "'Frame Time: <seconds>'"),
     "an unknown channel": (BVH.replace("1 Xrotation", "1 Wrotation"), "a.bvh:18: 1 channels such as Xrotation"),
     "an offset too short": (BVH.replace("OFFSET 10.0 0.0 0.0", "OFFSET 10.0 0.0"), "a.bvh:18: a number is expected"),
@@ -121,6 +123,10 @@ def test_broken_files_are_refused_with_their_place(kind):
         parsed(text)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_rate_that_is_told_replaces_a_frame_time_that_cannot_be():
+    assert parse_bvh(BVH.replace("0.0333333", "33.3333"), "b.bvh", fps=30).fps == 30
 
 
 def test_frame_times_rounded_when_printed_are_whole_rates():
@@ -158,6 +164,24 @@ def test_positions_that_move_are_kept_as_translations():
     again = parsed(bvh_text(motion, Convention()))
     assert again.translations is not None
     np.testing.assert_allclose(again.positions, motion.positions, atol=1e-6)
+
+
+def test_positions_that_are_all_zero_leave_the_offsets():
+    body = swinging(person(), frames=8)
+    text = bvh_text(body, Convention())
+    head, _, frames = text.partition("MOTION")
+    root, _, below = head.partition("JOINT")
+    bones = below.count("CHANNELS 3")
+    below = below.replace("CHANNELS 3 ", "CHANNELS 6 Xposition Yposition Zposition ")
+    titles, lines = frames.splitlines()[1:3], [line.split() for line in frames.splitlines()[3:]]
+    zeros = ["0", "0", "0"]
+    wide = [
+        " ".join([*line[:6], *(word for n in range(bones) for word in [*zeros, *line[6 + 3 * n : 9 + 3 * n]])])
+        for line in lines
+    ]
+    again = parsed("\n".join([root + "JOINT" + below + "MOTION", *titles, *wide]) + "\n")
+    assert again.translations is None
+    np.testing.assert_allclose(again.positions, parsed(text).positions, atol=1e-9)
 
 
 def test_a_helper_root_is_folded_into_the_travelling_hips():

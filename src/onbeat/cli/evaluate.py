@@ -104,6 +104,12 @@ def evaluate_command(
     with warnings_as_lines():
         danced, song = read_motion(motion, fps), _song(music)
     scores = evaluate_motion(danced, song.cut(start, max(song.duration - start, 0.0)), seed)
+    if not scores["beats"]["beats"]:
+        told = (
+            f"onbeat: none of the {len(song.beats)} beats of {music.name} falls into the motion: its scores on beats "
+        )
+        told += "say nothing; look at onbeat listen, or say with --start where in the song the motion begins"
+        print(told, file=sys.stderr)  # noqa: T201
     if json:
         document: dict[str, Any] = {"version": VERSION, "motion": motion.name, "song": music.name, **scores}
         sys.stdout.write(msgspec.json.format(msgspec.json.encode(document), indent=2).decode() + "\n")

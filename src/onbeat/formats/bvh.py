@@ -22,7 +22,7 @@ from onbeat.formats.bvh_frames import Frames, read_frames
 from onbeat.formats.bvh_hierarchy import Joint, read_hierarchy, whole_number
 from onbeat.formats.conventions import Up, guessed_unit, guessed_up, turn_in_place, unit_metres, z_up_vectors
 from onbeat.formats.notes import tell
-from onbeat.formats.rates import printed_rate
+from onbeat.formats.rates import ASK, printed_rate
 from onbeat.formats.text import decoded, open_text
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
@@ -34,6 +34,8 @@ _MOTION = re.compile(rb"(?:^|[\r\n}])[ \t]*MOTION(?=\s)", re.IGNORECASE)
 _COUNTS = re.compile(
     rb"\s{0,999}FRAMES?[ \t]*:?[ \t]*([^\s:]+)\s{1,999}FRAME[ \t]*TIME[ \t]*:?[ \t]*([^\s:]+)(?=\s|$)", re.IGNORECASE
 )
+_SLOWEST = 0.2
+"""Frames a second; with fewer it is no movement, but a rate or milliseconds where seconds belong."""
 _SCALE_FREE = 1e-5
 """A position channel that changes by less than this part of the body's longest bone is constant."""
 
@@ -103,6 +105,11 @@ def _rate(word: str, where: str) -> float:
     rate = printed_rate(word)
     if rate is None:
         raise FormatError(f"{where}: a frame time in seconds is expected, {word[:40]!r} found")
+    if rate < _SLOWEST:
+        raise FormatError(
+            f"{where}: a frame time of {word[:40]} s is found, too long for a movement; if it is a rate or "
+            f"milliseconds, find out the frames a second and {ASK}"
+        )
     return rate
 
 
@@ -119,7 +126,7 @@ def _motion(
     root = paths.pop(0, None)
     root = np.tile(offsets[0], (len(found.rotations), 1)) if root is None else root
     offsets[0] = 0
-    translations = _moving(offsets, paths, len(root))
+    translations = _moving(offsets, {} if _all_zero(offsets, paths) else paths, len(root))
     try:
         raw = Skeleton(names, parents, offsets, ends)
         some = slice(None, None, max(1, len(root) // 32))
@@ -143,6 +150,18 @@ def _told_up(motion: Motion) -> Up:
     up, why = guessed_up(motion)
     tell("up", up, why)
     return up
+
+
+def _all_zero(offsets: Array, paths: dict[int, Positions]) -> bool:
+    """Whether the positions of all bones are zero throughout: they are added to OFFSET then, and put nothing there.
+
+    Elsewhere they replace OFFSET; here no bone would have a length.
+    """
+    bones = [n for n in paths if offsets[n].any()]
+    zero = len(bones) > 2 and not any(paths[n].any() for n in bones)
+    if zero:
+        tell("positions", "none", f"those of all {len(bones)} bones are zero throughout; OFFSET is taken")
+    return zero
 
 
 def _moving(offsets: Array, paths: dict[int, Positions], frames: int) -> Positions | None:

@@ -50,7 +50,8 @@ def learned_limits(motions: Sequence[Motion], quantile: float = 1.0, skeleton: S
         raise LimitError(f"quantile {quantile}: a number over 0, up to 1 for the fastest, is expected")
     moving = [motion for motion in motions if len(motion) > 1]
     if not moving:
-        raise LimitError(f"{len(motions)} motions of two frames or more found; limits are learned from at least one")
+        given = f"{len(motions)} given, none of two frames or more" if motions else "none given"
+        raise LimitError(f"no motion to learn limits from ({given}); at least one that moves is needed")
     skeleton = moving[0].skeleton if skeleton is None else skeleton
     names = [name for name, end in zip(skeleton.names, skeleton.end_sites.tolist(), strict=True) if not end]
     speeds: dict[str, list[Array]] = {name: [] for name in names}
