@@ -20,7 +20,9 @@ from onbeat.live.pickers import Picker
 from onbeat.live.protocol import RATE, Who
 from onbeat.live.rest import resting
 from onbeat.live.session import Tried
+from onbeat.live.soles import Soles
 from onbeat.live.turned import Turned
+from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.motion import Motion
 from onbeat.motion.retarget import grounded, retarget
 from onbeat.moves.clips import MIRROR_SUFFIX
@@ -141,10 +143,12 @@ def _character(clips: Sequence[Motion], picked: Callable[[Motion], Picker], name
     skeleton = rest.skeleton
     drawn = body_data(rest[:2], 1)
     points: Ints = np.array([skeleton.index(joint) for joint in drawn.joints], dtype=np.int64)
-    dancer = Character(Turned(line, shown), skeleton, points)
+    soles = Soles.of(line.dancers.body)
+    dancer = Character(Turned(line, shown), skeleton, points, soles)
     who = Who(name, "character", skeleton.names, tuple(skeleton.parents.tolist()), (), tuple(drawn.joints))
     times = np.arange(int(FIRST * RATE)) / RATE
     rotations, roots = line.pose(times)
-    stood = Motion(skeleton, rotations, roots, RATE)
+    places = forward_kinematics(skeleton, rotations, roots)[1]
+    stood = Motion(skeleton, soles.pressed(rotations, roots, places)[0], roots, RATE)
     floor = ground_height(Figure.of(skeleton), stood)
     return Cast(who, dancer, conductor, Drawn(tuple(drawn.capsules), tuple(drawn.spine), floor, 0.0))

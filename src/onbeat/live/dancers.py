@@ -9,6 +9,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Float32, Ints, Rotations, Times
 from onbeat.live.protocol import RATE, Pose, no_angles
+from onbeat.live.soles import Soles
 from onbeat.live.turned import Turned
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import HingeBody, hinge_motion
@@ -48,11 +49,13 @@ class Character:
     turned : its channels.
     skeleton : its bones.
     points : (P,) joints whose places are told.
+    soles : its feet, which do not sink into the floor.
     """
 
     turned: Turned
     skeleton: Skeleton
     points: Ints
+    soles: Soles
 
     @property
     def followed(self) -> Followed:
@@ -71,8 +74,9 @@ class Character:
     def poses(self, first: int, values: Array, own: Times) -> list[Pose]:
         """Its rotations, its root's way, and the places of its joints."""
         rotations, roots = self.turned.made(values, own)
-        positions = forward_kinematics(self.skeleton, rotations, roots)[1]
-        points = positions[:, self.points].astype(np.float32)
+        places = forward_kinematics(self.skeleton, rotations, roots)[1]
+        rotations, places = self.soles.pressed(rotations, roots, places)
+        points = places[:, self.points].astype(np.float32)
         return _poses(first, roots, rotations, np.tile(no_angles(), (len(own), 1)), points)
 
 
