@@ -21,7 +21,7 @@ import numpy as np
 
 from onbeat.examples import embedded_motions
 from onbeat.formats import read_motion, write_motion
-from onbeat.formats.usd import write_usd
+from onbeat.formats.usd.write import write_usd
 from onbeat.motion import Motion
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))

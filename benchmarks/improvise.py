@@ -30,7 +30,7 @@ from onbeat.dance.score import INTENSITY, score_music
 from onbeat.dance.search import make_problem
 from onbeat.dance.variety import beam_path
 from onbeat.dance.walk import random_walk
-from onbeat.live.improviser import Improviser
+from onbeat.live.choice.improviser import Improviser
 from onbeat.metrics.beats import f_measure
 from onbeat.moves.cache import build_or_open
 from onbeat.moves.embedded import embedded_library

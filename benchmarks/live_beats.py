@@ -35,7 +35,7 @@ from onbeat.examples.harmony import choose_progressions
 from onbeat.examples.mixing import master
 from onbeat.examples.score import write_score
 from onbeat.examples.song import perform
-from onbeat.live.pulse import EAR_RATE, Heard, Pulse
+from onbeat.live.beat.pulse import EAR_RATE, Heard, Pulse
 from onbeat.music.causal import CausalTracker
 from onbeat.music.listen import listen
 

@@ -10,10 +10,10 @@ import numpy as np
 
 from live_sessions import TICK, Checked, cast_named
 from made_songs import RATE, made_song, steady
-from onbeat.live.ears import Ears
+from onbeat.live.beat.pulse import Pulse
 from onbeat.live.protocol import Status
-from onbeat.live.pulse import Pulse
 from onbeat.live.session import Session
+from onbeat.live.sound.ears import Ears
 
 BROKEN, WHOLE_AGAIN = 20.0, 32.0
 """Seconds of the song between which something is wrong with it."""
@@ -93,10 +93,10 @@ def clients() -> None:
     """Two clients that watch, one that sends garbage, one that stops reading: who watches gets all."""
     from websockets.asyncio.client import connect
 
-    from onbeat.live.outputs import Outputs
+    from onbeat.live.mouths.outputs import Outputs
+    from onbeat.live.page.server import Server
+    from onbeat.live.page.wire import HelloData
     from onbeat.live.protocol import Pose, Who
-    from onbeat.live.server import Server
-    from onbeat.live.wire import HelloData
 
     hello = HelloData(1, "t", "n", "character", ["a"], [], [0], 0.0, 0.0, 0.0, 0.0, 0.0)
     server = Server(b"page", lambda: hello, lambda command: None, port=0)

@@ -11,16 +11,16 @@ from collections.abc import Sequence
 
 from live_sessions import cast_named
 from onbeat.examples.song import demo_song
-from onbeat.live.array_source import ArraySource
+from onbeat.live.beat.pulse import Pulse
 from onbeat.live.hearing import Hearing, Inbox
-from onbeat.live.lines import Lines
-from onbeat.live.osc import Osc
-from onbeat.live.outputs import Outputs
-from onbeat.live.pulse import Pulse
+from onbeat.live.mouths.lines import Lines
+from onbeat.live.mouths.osc import Osc
+from onbeat.live.mouths.outputs import Outputs
+from onbeat.live.page.server import Server
+from onbeat.live.page.wire import HelloData
 from onbeat.live.run import Runner
-from onbeat.live.server import Server
 from onbeat.live.session import Session, warm_up
-from onbeat.live.wire import HelloData
+from onbeat.live.sound.array_source import ArraySource
 
 SECONDS = 60.0
 

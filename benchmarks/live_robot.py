@@ -25,13 +25,13 @@ from onbeat.examples.dances import perform_dance
 from onbeat.formats.read import read_motion
 from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.live.protocol import RATE, Pose
-from onbeat.live.robot_bounds import bounds_of
-from onbeat.live.robot_dance import STANCE, RobotDance, prepare
-from onbeat.live.robot_line import RobotLine
-from onbeat.live.robot_rest import resting
-from onbeat.live.simulation import Simulation
+from onbeat.live.robot.bounds import bounds_of
+from onbeat.live.robot.dance import STANCE, RobotDance, prepare
+from onbeat.live.robot.line import RobotLine
+from onbeat.live.robot.rest import resting
+from onbeat.live.robot.simulation import Simulation
 from onbeat.retime.stream import Follower
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import Robot, robot_named
 
 FINE = 1000  # looks a second at limits

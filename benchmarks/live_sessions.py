@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from onbeat.examples.troupe import dance_library
+from onbeat.live.beat.pulse import Pulse
 from onbeat.live.cast import Cast, Known, following, improvising
 from onbeat.live.protocol import Command, Note, Pose, Status
-from onbeat.live.pulse import Pulse
 from onbeat.live.session import NOTHING_TOLD, Session, Told
 from onbeat.moves.embedded import embedded_library
 from onbeat.retime.bspline import Spline
@@ -96,7 +96,7 @@ def cast_named(name: str) -> Cast:
         return improvising(embedded_library())
     if name == "choreography":
         return following(troupe())
-    from onbeat.live.robot_cast import on_robot
+    from onbeat.live.robot.cast import on_robot
     from onbeat.robots.model import robot_named
 
     return on_robot(troupe(3), robot_named(name))

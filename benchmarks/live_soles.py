@@ -17,11 +17,11 @@ import numpy as np
 from live_sessions import run
 from made_songs import made_song, steady
 from onbeat.formats.read import read_motion
+from onbeat.live.beat.pulse import Pulse
+from onbeat.live.bodies.dancers import Character
+from onbeat.live.bodies.soles import Soles
 from onbeat.live.cast import Known, following
-from onbeat.live.dancers import Character
-from onbeat.live.pulse import Pulse
 from onbeat.live.session import Session
-from onbeat.live.soles import Soles
 from onbeat.motion.soles import FREE
 
 APART = 0.55  # [s] between the beats that the motions are taken to have

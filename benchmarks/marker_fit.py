@@ -67,10 +67,10 @@ def row(file: Path) -> list[str]:
 def read(file: Path) -> Markers:
     """The markers of a file, by the reader of its kind."""
     if file.suffix.lower() == ".trc":
-        from onbeat.formats.trc import read_trc
+        from onbeat.formats.trc.read import read_trc
 
         return read_trc(file)
-    from onbeat.formats.c3d import read_c3d
+    from onbeat.formats.c3d.read import read_c3d
 
     return read_c3d(file)
 

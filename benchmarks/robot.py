@@ -28,10 +28,10 @@ from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.motion import Motion
 from onbeat.retime.lock import TimeMap
 from onbeat.robots.balance import balanced
-from onbeat.robots.disturb import pushes
 from onbeat.robots.model import robot_named
 from onbeat.robots.perform import Staged, kept_limits, stage
 from onbeat.robots.simulate import Options, simulate
+from onbeat.robots.simulation.disturb import pushes
 from robot_retarget import retargeting
 
 PARTS = ("retarget", "balance", "steps", "robust", "hrp4c")

@@ -18,12 +18,12 @@ from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.contacts import point_speeds
 from onbeat.motion.hinges import hinge_angles, hinge_motion
-from onbeat.robots.collision import capsules_of, clearances
-from onbeat.robots.directions import aims_of
-from onbeat.robots.ik import ROOT, tree_of
+from onbeat.robots.ik.collision import capsules_of, clearances
+from onbeat.robots.ik.directions import aims_of
+from onbeat.robots.ik.trajectory import Problem, solve
+from onbeat.robots.ik.tree import ROOT, tree_of
 from onbeat.robots.model import Robot, robot_named
 from onbeat.robots.retarget import retarget, rules_of
-from onbeat.robots.trajectory import Problem, solve
 
 SECONDS, RATE = 10.0, 60.0
 HEADS = ("error °, mean", "p95", "past limits %", "steps too fast %", "colliding %", "stops kept", "× real time")

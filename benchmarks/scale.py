@@ -28,8 +28,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from archive import FPS, Archive, Poses
-from onbeat.moves.blocks import Group, Span, group_spans
 from onbeat.moves.library import REACH
+from onbeat.moves.pairs.blocks import Group, Span, group_spans
 from onbeat.moves.similarity import Search, block_pairs, search_for
 from process_tree import Peak, run_measured
 

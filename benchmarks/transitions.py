@@ -25,11 +25,11 @@ from rich.console import Console
 from rich.table import Table
 from threadpoolctl import threadpool_limits
 
-from onbeat.moves.blocks import NEAR, Group, Pairs, Span, group_spans
-from onbeat.moves.caps import capped, density_for
-from onbeat.moves.cells import cells_of
-from onbeat.moves.exact import TILE, Product
 from onbeat.moves.library import REACH
+from onbeat.moves.pairs.blocks import NEAR, Group, Pairs, Span, group_spans
+from onbeat.moves.pairs.caps import capped, density_for
+from onbeat.moves.pairs.cells import cells_of
+from onbeat.moves.pairs.exact import TILE, Product
 from onbeat.moves.similarity import EXACT, Search, block_pairs
 
 sys.path.insert(0, str(Path(__file__).parent))

@@ -23,10 +23,10 @@ from onbeat.examples import embedded_motions, embedded_song
 from onbeat.formats.read import read_motion
 from onbeat.motion import Motion
 from onbeat.viewer import video
-from onbeat.viewer.flashes import Flashes
-from onbeat.viewer.in_order import usable_cores
-from onbeat.viewer.scene import Scene
-from onbeat.viewer.sound import SoundTrack
+from onbeat.viewer.film.flashes import Flashes
+from onbeat.viewer.film.in_order import usable_cores
+from onbeat.viewer.film.scene import Scene
+from onbeat.viewer.film.sound import SoundTrack
 
 SPENT: dict[str, float] = defaultdict(float)
 

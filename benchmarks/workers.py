@@ -23,8 +23,8 @@ from pathlib import Path
 import numpy as np
 
 import workers  # this file under the name by which other processes can import it
-from onbeat.moves.blocks import Group
 from onbeat.moves.engine import Crew, Engine, Parts
+from onbeat.moves.pairs.blocks import Group
 from onbeat.moves.similarity import block_pairs
 
 WIDTH, CLIPS = 60, 4

@@ -11,7 +11,7 @@ from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
 from onbeat.keyposes.extract import find_keyposes
-from onbeat.viewer.keypose_sheet import keypose_pages, save_pages
+from onbeat.viewer.keypose.sheet import keypose_pages, save_pages
 
 FOLDER = Path(__file__).parent / "pictures"
 

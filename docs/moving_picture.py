@@ -14,11 +14,11 @@ from onbeat.examples.dancers import DANCERS
 from onbeat.examples.performer import perform
 from onbeat.examples.troupe import FIGURES
 from onbeat.motion import Motion
-from onbeat.viewer.camera import Camera
 from onbeat.viewer.figure import DRESSED, Figure, ground_height
-from onbeat.viewer.raster import render_frame
-from onbeat.viewer.stage import Stage
-from onbeat.viewer.strip import Strip, loudness
+from onbeat.viewer.film.strip import Strip, loudness
+from onbeat.viewer.render.camera import Camera
+from onbeat.viewer.render.raster import render_frame
+from onbeat.viewer.render.stage import Stage
 
 DANCED = ("star", "kick", "arm waves", "step touch", "punch", "arm circles", "offering", "turn")
 """What each dancer dances; all of them come round in four or eight beats."""

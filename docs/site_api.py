@@ -25,7 +25,7 @@ ROOMS = {
     "recognition": ("whole", "recogniser", "model_file", "labels", "pupil"),
     "robots": ("model", "on_robot", "perform", "simulate", "trial"),
     "dance": ("make", "wishes", "plan", "retimed"),
-    "viewer": ("page", "dance_page", "robot_page", "video", "sheet", "raster"),
+    "viewer": ("pages.page", "pages.dance", "pages.robot", "video", "sheet", "render.raster"),
     "live": ("rehearsed", "session", "cast"),
     "studio": ("serve", "app", "project"),
     "reproduce": ("run", "paper", "data", "result", "study.plans", "study.table"),

@@ -6,8 +6,8 @@ from functools import cache
 
 import numpy as np
 
-from onbeat.live.robot_dance import RobotDance, prepare
-from onbeat.live.robot_rest import resting
+from onbeat.live.robot.dance import RobotDance, prepare
+from onbeat.live.robot.rest import resting
 from onbeat.robots.model import Robot
 from robot_dances import made_dance
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from onbeat.motion import rotations as rot
 from onbeat.motion.motion import Motion
-from onbeat.robots.hips import feet_below, hips_apart
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.hips import feet_below, hips_apart
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import Robot, robot_named
 from onbeat.robots.state import motion_of
 

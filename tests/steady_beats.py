@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from onbeat.live.pulse import Heard
+from onbeat.live.beat.pulse import Heard
 
 
 class Books:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -106,6 +107,22 @@ def test_imports_run_downwards():
         if not allowed(room_of(path), other.removesuffix(".py"))
     ]
     assert not upwards, "\n".join(upwards)
+
+
+def test_inside_a_room_imports_never_run_in_circles_between_folders():
+    arrows: dict[tuple[str, str], set[str]] = {}
+    for path in FILES:
+        room, *below = path.relative_to(SOURCE).with_suffix("").parts
+        for node in ast.walk(tree(path)) if below else ():
+            known = isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"onbeat.{room}.")
+            if known and (other := node.module.split(".")[2]) != below[0]:
+                arrows.setdefault((room, below[0]), set()).add(other)
+    order = {room: TopologicalSorter({a: b for (r, a), b in arrows.items() if r == room}) for room, _ in arrows}
+    for room, sorter in order.items():
+        try:
+            sorter.prepare()
+        except CycleError as error:
+            raise AssertionError(f"{room}: {' imports '.join(reversed(error.args[1]))}") from None
 
 
 @pytest.mark.parametrize(

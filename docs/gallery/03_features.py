@@ -10,7 +10,7 @@ from onbeat.examples.performer import perform
 from onbeat.files import make_folder
 from onbeat.motion.contacts import foot_contacts
 from onbeat.motion.features import hand_features, intensity_component
-from onbeat.viewer.figures import new_figure, save_figure
+from onbeat.viewer.plots.files import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 danced = perform(DANCERS[3], [FOLK_DANCE], speed=1.0, cycles=2, rng=np.random.default_rng(0))

@@ -5,7 +5,7 @@ import sys
 import onbeat
 from onbeat.dance.sublibrary import sublibrary
 from onbeat.files import make_folder
-from onbeat.viewer.figures import new_figure, save_figure
+from onbeat.viewer.plots.files import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 song, _, _ = onbeat.embedded_song(seconds=8.0)

@@ -7,7 +7,7 @@ import numpy as np
 import onbeat
 from onbeat.files import make_folder
 from onbeat.moves.graph import GRID
-from onbeat.viewer.figures import new_figure, save_figure
+from onbeat.viewer.plots.files import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 

@@ -11,7 +11,7 @@ from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
 from onbeat.files import make_folder
 from onbeat.motion.joint_markers import joint_markers
-from onbeat.viewer.figures import new_figure, save_figure
+from onbeat.viewer.plots.files import new_figure, save_figure
 
 folder = make_folder(sys.argv[1] if len(sys.argv) > 1 else "made")
 

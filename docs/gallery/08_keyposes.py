@@ -11,7 +11,7 @@ from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
 from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.keyposes.segments import segments
-from onbeat.viewer.keypose_sheet import write_keypose_sheet
+from onbeat.viewer.keypose.sheet import write_keypose_sheet
 from onbeat.viewer.sheet import write_png
 
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")

@@ -9,9 +9,9 @@ import onbeat
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.folk_dance import FOLK_DANCE
 from onbeat.examples.performer import perform
-from onbeat.viewer.limits_figure import write_limits_figure
-from onbeat.viewer.retime_figure import write_retime_figure
-from onbeat.viewer.retime_page import write_retime_page
+from onbeat.viewer.pages.retime import write_retime_page
+from onbeat.viewer.plots.limits import write_limits_figure
+from onbeat.viewer.plots.retime import write_retime_figure
 
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")
 made.mkdir(exist_ok=True)

@@ -10,7 +10,7 @@ import numpy as np
 
 import onbeat
 from onbeat.examples.song import demo_song
-from onbeat.viewer.figures import new_figure, save_figure
+from onbeat.viewer.plots.files import new_figure, save_figure
 
 made = Path(sys.argv[1] if len(sys.argv) > 1 else "made")
 made.mkdir(exist_ok=True)

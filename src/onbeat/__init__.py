@@ -43,8 +43,8 @@ if TYPE_CHECKING:
     from onbeat.robots.on_robot import dance_on_robot
     from onbeat.robots.perform import Staged
     from onbeat.robots.simulate import simulate
-    from onbeat.viewer.dance_page import write_dance_page
-    from onbeat.viewer.page import write_page
+    from onbeat.viewer.pages.dance import write_dance_page
+    from onbeat.viewer.pages.page import write_page
     from onbeat.viewer.sheet import contact_sheet
     from onbeat.viewer.video import write_video
 

@@ -13,7 +13,7 @@ from blender.opened import Seen, Wanted, blender, bone_names, open_in_blender, s
 from onbeat.examples import embedded_motions
 from onbeat.formats import read_motion, write_motion
 from onbeat.formats.rates import RateWarning
-from onbeat.formats.usd import write_usd
+from onbeat.formats.usd.write import write_usd
 from onbeat.motion import Body, Motion, Skeleton
 from onbeat.motion.body import ancestors
 from persons import swinging

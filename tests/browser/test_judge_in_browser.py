@@ -11,7 +11,7 @@ import pytest
 from browser.pictures import Pictures
 from folk_dancers import spaces_of
 from onbeat.keyposes.judging import AnswersDocument, trials, verdict_of
-from onbeat.viewer.judge_page import write_judge_page
+from onbeat.viewer.pages.judge import write_judge_page
 
 pytestmark = pytest.mark.browser
 

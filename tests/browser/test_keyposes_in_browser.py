@@ -9,7 +9,7 @@ import pytest
 from browser.pictures import Pictures
 from folk_dancers import dancers
 from onbeat.keyposes.extract import Keyposes, find_keyposes
-from onbeat.viewer.keypose_page import write_keypose_page
+from onbeat.viewer.pages.keyposes import write_keypose_page
 
 pytestmark = pytest.mark.browser
 

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from browser.pictures import Pictures
+from onbeat.live.page.wire import HelloData, packed, text
 from onbeat.live.protocol import BeatSaid, Pose, Status
-from onbeat.live.wire import HelloData, packed, text
 from onbeat.motion import Motion
-from onbeat.viewer.content import body_data
-from onbeat.viewer.live_page import live_page
+from onbeat.viewer.pages.content import body_data
+from onbeat.viewer.pages.live import live_page
 
 pytestmark = pytest.mark.browser
 ADDRESS = "http://127.0.0.1:1/"

@@ -9,8 +9,8 @@ import pytest
 
 from folk_dancers import dancers
 from onbeat.recognition.ghost import Beside, beside
-from onbeat.viewer.heat import scale_end
-from onbeat.viewer.pupil_page import write_pupil_page
+from onbeat.viewer.pages.pupil import write_pupil_page
+from onbeat.viewer.plots.heat import scale_end
 
 pytestmark = pytest.mark.browser
 

@@ -14,7 +14,7 @@ from onbeat.motion import Motion
 from onbeat.retime.lock import lock
 from onbeat.retime.retime import Retimed, retime
 from onbeat.retime.sources import source_of
-from onbeat.viewer.retime_page import on_music_clock, write_retime_page
+from onbeat.viewer.pages.retime import on_music_clock, write_retime_page
 
 pytestmark = pytest.mark.browser
 

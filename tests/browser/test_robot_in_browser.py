@@ -13,8 +13,8 @@ from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
 from onbeat.robots.model import robot_named
-from onbeat.viewer.page import write_filled
-from onbeat.viewer.robot_page import robot_page_data
+from onbeat.viewer.pages.page import write_filled
+from onbeat.viewer.pages.robot import robot_page_data
 from onbeat.viewer.robot_shape import robot_shape
 
 pytestmark = pytest.mark.browser

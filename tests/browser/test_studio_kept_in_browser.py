@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from browser.studio_page import SECONDS, Opened, song, studio
-from onbeat.formats.trc_write import write_trc
+from onbeat.formats.trc.write import write_trc
 from onbeat.motion import Markers
 from persons import AMC, ASF
 

@@ -31,8 +31,8 @@ from onbeat.studio.wire import (
     SongItem,
     SongView,
 )
-from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import ClipData, GraphData, JoinData, pack_curve
+from onbeat.viewer.pages.content import page_data
 
 pytestmark = pytest.mark.browser
 ADDRESS = "http://127.0.0.1:1/"

@@ -37,7 +37,7 @@ def address(folder: Path) -> Iterator[str]:
     thread.start()
     yield f"http://127.0.0.1:{bound.getsockname()[1]}/"
     server.should_exit = True
-    thread.join(20)
+    thread.join(120)
     bound.close()
 
 
@@ -48,7 +48,7 @@ def answer(page: Any) -> list[dict[str, Any]]:
     for number, trial in enumerate(asked):
         right = "a" if trial["a"] == "keyposes" else "b"
         page.keyboard.press(right if number < len(asked) - 1 else {"a": "b", "b": "a"}[right])
-    page.wait_for_selector("#next:not([disabled])", timeout=20_000)
+    page.wait_for_selector("#next:not([disabled])", timeout=120_000)
     return asked
 
 

@@ -233,7 +233,7 @@ def test_progress_comes_to_an_end(markers: Markers):
 
 
 def test_a_real_ballet_is_met(data: Path):
-    from onbeat.formats.trc import read_trc
+    from onbeat.formats.trc.read import read_trc
 
     fit = fit_body(read_trc(data / "c3d" / "MOTEK__ballet_reduced.trc"))
     assert fit.residual_mm < 5.0
@@ -243,7 +243,7 @@ def test_a_real_ballet_is_met(data: Path):
 
 
 def test_a_real_optitrack_clip_is_met(data: Path):
-    from onbeat.formats.c3d import read_c3d
+    from onbeat.formats.c3d.read import read_c3d
 
     fit = fit_body(read_c3d(data / "c3d" / "others__mocap36.c3d"))
     assert fit.residual_mm < 8.0

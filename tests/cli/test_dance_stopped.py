@@ -169,7 +169,7 @@ def test_stopped_while_writing_the_older_dance_is_kept(
     out.mkdir()
     (out / "dance.bvh").write_text("older")
     stop = lambda *_: (_ for _ in ()).throw(KeyboardInterrupt)  # noqa: E731
-    monkeypatch.setattr("onbeat.viewer.dance_page.write_dance_page", stop)
+    monkeypatch.setattr("onbeat.viewer.pages.dance.write_dance_page", stop)
     assert run(song, "--moves", clips, "--fps", 10, "-o", out)[0] == 130
     assert [path.name for path in out.iterdir()] == ["dance.bvh"]
     assert (out / "dance.bvh").read_text() == "older"

@@ -5,7 +5,7 @@ import pytest
 
 from onbeat.errors import FormatError
 from onbeat.formats import read_motion
-from onbeat.formats.asfamc import read_amc, skeleton_file
+from onbeat.formats.acclaim.read import read_amc, skeleton_file
 from onbeat.formats.rates import RateWarning
 from onbeat.motion import Body, Motion
 from onbeat.motion import rotations as rot

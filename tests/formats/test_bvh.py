@@ -5,8 +5,8 @@ import pytest
 
 from onbeat.errors import FormatError
 from onbeat.formats import Convention, read_motion, write_motion
-from onbeat.formats.bvh import parse_bvh
-from onbeat.formats.bvh_write import bvh_text
+from onbeat.formats.bvh.read import parse_bvh
+from onbeat.formats.bvh.write import bvh_text
 from onbeat.formats.notes import noted
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot

@@ -44,9 +44,9 @@ def test_joints_are_where_the_matrices_say(case: Case, tmp_path):
 def test_what_cannot_be_read_is_refused_with_its_place(case: Case, tmp_path):
     path = tmp_path / "a.bvh"
     path.write_bytes(case.data)
-    started = time.monotonic()
+    started = time.process_time()
     with pytest.raises(FormatError) as caught:
         read_motion(path)
     assert case.says in str(caught.value)
     assert str(path) in str(caught.value)
-    assert time.monotonic() - started < 2
+    assert time.process_time() - started < 2

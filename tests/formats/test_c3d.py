@@ -6,7 +6,7 @@ import pytest
 
 from c3d_files import c3d_file, expected, parameter, record, wandering
 from onbeat.errors import FormatError
-from onbeat.formats.c3d import read_c3d
+from onbeat.formats.c3d.read import read_c3d
 from onbeat.formats.lost_frames import LostFramesWarning
 from onbeat.formats.notes import noted
 from onbeat.motion import Markers

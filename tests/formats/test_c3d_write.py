@@ -6,8 +6,8 @@ import pytest
 
 from c3d_files import floats, words
 from onbeat.errors import FormatError
-from onbeat.formats.c3d import read_c3d
-from onbeat.formats.c3d_write import c3d_bytes, write_c3d
+from onbeat.formats.c3d.read import read_c3d
+from onbeat.formats.c3d.write import c3d_bytes, write_c3d
 from onbeat.formats.conventions import Convention
 from onbeat.motion import Markers
 from onbeat.motion.joint_markers import joint_markers

@@ -42,7 +42,7 @@ def modules() -> Path:
 def report(glb: bytes, modules: Path) -> dict:
     """What the validator says of the bytes of a file."""
     words, environment = ["node", "-e", _VALIDATE], os.environ | {"NODE_PATH": str(modules)}
-    run = subprocess.run(words, input=glb, capture_output=True, check=True, timeout=120, env=environment)
+    run = subprocess.run(words, input=glb, capture_output=True, check=True, timeout=600, env=environment)
     return json.loads(run.stdout)
 
 

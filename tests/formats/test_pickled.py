@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
-from onbeat.formats.pickled import load_pickled_arrays
+from onbeat.formats.named.pickled import load_pickled_arrays
 
 PROTOCOLS = range(pickle.HIGHEST_PROTOCOL + 1)
 

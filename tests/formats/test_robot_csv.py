@@ -158,10 +158,10 @@ def test_a_missing_file_or_a_folder_is_refused(tmp_path):
 
 @pytest.mark.parametrize("ending", [b"\n" * 9_000_000, b" " * 9_000_000])
 def test_white_space_without_end_is_not_read_to_its_end(tmp_path, ending):
-    started = time.perf_counter()
+    started = time.process_time()
     with pytest.raises(FormatError, match=r"white space found|a line of over"):
         read(tmp_path, "\n".join(lines()).encode() + b"\n" + ending)
-    assert time.perf_counter() - started < 2
+    assert time.process_time() - started < 2
 
 
 def test_a_file_larger_than_one_block_is_read_whole(tmp_path):

@@ -13,8 +13,8 @@ from onbeat.formats.keyed import read_pkl
 from onbeat.formats.notes import noted
 from onbeat.formats.npz import read_npz
 from onbeat.formats.rates import RateWarning
-from onbeat.formats.smpl import is_smpl, smpl_motion
-from onbeat.formats.smpl_body import FINGER_JOINTS, ORDERS, STATURE, smpl_skeleton
+from onbeat.formats.smpl.body import FINGER_JOINTS, ORDERS, STATURE, smpl_skeleton
+from onbeat.formats.smpl.read import is_smpl, smpl_motion
 from onbeat.motion import Body, Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import body_frames, facing

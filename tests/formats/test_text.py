@@ -6,8 +6,8 @@ import pytest
 from awkward import CASES
 from onbeat.errors import FormatError
 from onbeat.formats import read_motion, text
-from onbeat.formats.bvh import parse_bvh
-from onbeat.formats.bvh_write import bvh_text
+from onbeat.formats.bvh.read import parse_bvh
+from onbeat.formats.bvh.write import bvh_text
 from onbeat.formats.conventions import Convention
 from onbeat.formats.text import decoded, numbers, pieces, small_text
 from persons import AMC, ASF, person, swinging

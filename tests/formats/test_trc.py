@@ -9,8 +9,8 @@ from onbeat.formats.conventions import Convention
 from onbeat.formats.lost_frames import LostFramesWarning
 from onbeat.formats.notes import noted
 from onbeat.formats.rates import RateWarning
-from onbeat.formats.trc import read_trc
-from onbeat.formats.trc_write import trc_text, write_trc
+from onbeat.formats.trc.read import read_trc
+from onbeat.formats.trc.write import trc_text, write_trc
 from onbeat.motion import Markers
 from onbeat.motion.joint_markers import joint_markers
 from persons import person, swinging

@@ -11,7 +11,7 @@ from onbeat.errors import FormatError, MissingExtraError, OnbeatError
 from onbeat.formats import Convention, read_motion
 from onbeat.formats.body_mesh import body_mesh
 from onbeat.formats.conventions import z_up_vectors
-from onbeat.formats.usd import SUFFIXES, joint_paths, usd_bytes, write_usd
+from onbeat.formats.usd.write import SUFFIXES, joint_paths, usd_bytes, write_usd
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 from persons import person, swinging

@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from c3d_files import c3d_file, parameter, record, wandering
 from fuzzing import patient
 from onbeat.errors import FormatError
-from onbeat.formats.c3d import read_c3d
-from onbeat.formats.c3d_write import c3d_bytes
+from onbeat.formats.c3d.read import read_c3d
+from onbeat.formats.c3d.write import c3d_bytes
 from onbeat.formats.conventions import Convention
 from onbeat.formats.lost_frames import LostFramesWarning
-from onbeat.formats.trc import read_trc
-from onbeat.formats.trc_write import trc_text
+from onbeat.formats.trc.read import read_trc
+from onbeat.formats.trc.write import trc_text
 from onbeat.motion import Markers
 
 ANALOG = [record("ANALOG", -2, b"\0"), parameter("USED", 2, 3), parameter("RATE", 2, 200.0)]

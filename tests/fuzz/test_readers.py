@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from fuzzing import patient
 from onbeat.errors import FormatError
-from onbeat.formats.asfamc import read_amc
-from onbeat.formats.bvh import parse_bvh, read_bvh
+from onbeat.formats.acclaim.read import read_amc
+from onbeat.formats.bvh.read import parse_bvh, read_bvh
 from onbeat.formats.npz import read_npz
 from persons import AMC, ASF, BVH
 

@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 from onbeat.errors import OnbeatError
-from onbeat.robots.description_toml import description_of
-from onbeat.robots.hrpsys import read_hrpsys, write_hrpsys
-from onbeat.robots.mcap import read_mcap, write_mcap
+from onbeat.robots.description.toml import description_of
+from onbeat.robots.description.urdf import read_urdf
 from onbeat.robots.model import robot_named
+from onbeat.robots.sequences.hrpsys import read_hrpsys, write_hrpsys
+from onbeat.robots.sequences.mcap import read_mcap, write_mcap
 from onbeat.robots.state import motion_of
-from onbeat.robots.urdf import read_urdf
 
 INERTIA = '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
 LINK = f'<inertial><origin xyz="0 0 -0.1"/><mass value="1"/>{INERTIA}</inertial>'

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from onbeat.formats.bvh import parse_bvh
-from onbeat.formats.bvh_write import bvh_text
+from onbeat.formats.bvh.read import parse_bvh
+from onbeat.formats.bvh.write import bvh_text
 from onbeat.formats.conventions import UNITS, Convention
 from onbeat.motion import Skeleton
 from persons import person, swinging

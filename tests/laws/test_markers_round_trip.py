@@ -5,11 +5,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from onbeat.formats.c3d import read_c3d
-from onbeat.formats.c3d_write import c3d_bytes, write_c3d
+from onbeat.formats.c3d.read import read_c3d
+from onbeat.formats.c3d.write import c3d_bytes, write_c3d
 from onbeat.formats.conventions import Convention
-from onbeat.formats.trc import read_trc
-from onbeat.formats.trc_write import trc_text, write_trc
+from onbeat.formats.trc.read import read_trc
+from onbeat.formats.trc.write import trc_text, write_trc
 from onbeat.motion import Markers
 from onbeat.motion.joint_markers import joint_markers
 from persons import person, swinging

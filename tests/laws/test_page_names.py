@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from onbeat.motion import Motion
-from onbeat.viewer.page import render_page
+from onbeat.viewer.pages.page import render_page
 
 NAMES = st.text(st.characters(exclude_categories=["Cs"]), max_size=30) | st.text("</script>!-&\"\\'", max_size=30)
 

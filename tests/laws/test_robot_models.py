@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from onbeat.motion import rotations as rot
-from onbeat.robots.hrpsys import read_hrpsys, write_hrpsys
-from onbeat.robots.mcap import read_mcap, write_mcap
 from onbeat.robots.model import robot_named
+from onbeat.robots.sequences.hrpsys import read_hrpsys, write_hrpsys
+from onbeat.robots.sequences.mcap import read_mcap, write_mcap
 from onbeat.robots.state import configurations, derivatives, motion_of
 
 NAMES = st.sampled_from(("g1", "hrp4c", "talos"))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import AudioError
-from onbeat.live.array_source import ArraySource
+from onbeat.live.sound.array_source import ArraySource
 
 RATE = 8000
 

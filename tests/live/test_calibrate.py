@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import AudioError
-from onbeat.live.calibrate import LENGTH, calibrate, chirp, clicks_to_play, delays, through_card
+from onbeat.live.sound.calibrate import LENGTH, calibrate, chirp, clicks_to_play, delays, through_card
 
 
 def room(sound: np.ndarray, rate: int, late: float, ringing: float, noise: float, gain: float) -> np.ndarray:

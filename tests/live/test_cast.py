@@ -8,7 +8,7 @@ import pytest
 from onbeat.errors import PlanError
 from onbeat.examples.troupe import dance_library
 from onbeat.live.cast import Known, distinct, following
-from onbeat.live.robot_cast import on_robot
+from onbeat.live.robot.cast import on_robot
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.motion import Motion
 from onbeat.robots.model import robot_named

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from onbeat.errors import PlanError
-from onbeat.live.choreography import Choreography, Repertoire
-from onbeat.live.timeline import Ahead
+from onbeat.live.choice.choreography import Choreography, Repertoire
+from onbeat.live.choice.timeline import Ahead
 
 
 def ahead(period: float, first: int = 10, at: float = 5.0) -> Ahead:

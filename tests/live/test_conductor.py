@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.live.choreography import Choreography, Repertoire
+from onbeat.live.choice.choreography import Choreography, Repertoire
 from onbeat.live.conductor import KNOWN, Conductor, Rest
 from steady_beats import Books, heard
 

@@ -7,7 +7,7 @@ import pytest
 
 from faulty_source import Fault, Kind, faulty
 from onbeat.errors import AudioError
-from onbeat.live.ears import EAR_RATE, TICK, Ears
+from onbeat.live.sound.ears import EAR_RATE, TICK, Ears
 
 RATE = EAR_RATE
 

@@ -10,7 +10,7 @@ import pytest
 import soundfile
 
 from onbeat.errors import AudioError
-from onbeat.live.file_source import FileSource
+from onbeat.live.sound.file_source import FileSource
 from onbeat.music.audio import AudioWarning
 
 RATE = 8000

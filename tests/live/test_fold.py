@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from onbeat.live.fold import Fold
-from onbeat.live.reading import Reading
+from onbeat.live.beat.fold import Fold
+from onbeat.live.beat.reading import Reading
 
 
 @pytest.mark.parametrize(

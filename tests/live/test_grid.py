@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.live.bar import Bar
-from onbeat.live.fold import Danced
-from onbeat.live.grid import Grid
+from onbeat.live.beat.bar import Bar
+from onbeat.live.beat.fold import Danced
+from onbeat.live.beat.grid import Grid
 
 
 def run(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import PlanError
-from onbeat.live.improviser import Chosen, Improviser
+from onbeat.live.choice.improviser import Chosen, Improviser
 from onbeat.metrics.beats import f_measure
 from onbeat.moves.graph import GRID, STRETCH
 from onbeat.moves.library import MoveLibrary

@@ -12,7 +12,7 @@ from onbeat.dance.realise import realise
 from onbeat.dance.windows import link_speeds
 from onbeat.errors import PlanError
 from onbeat.examples.troupe import dance_library
-from onbeat.live.line import MARGIN, Line
+from onbeat.live.growing.line import MARGIN, Line
 from onbeat.metrics import feet
 from onbeat.motion.motion import Motion
 

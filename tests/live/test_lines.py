@@ -12,8 +12,8 @@ import pytest
 
 from live_poses import ROBOT, dancer, pose
 from onbeat.errors import OnbeatError
-from onbeat.live.lines import Lines
-from onbeat.live.outputs import Outputs
+from onbeat.live.mouths.lines import Lines
+from onbeat.live.mouths.outputs import Outputs
 
 
 def written(lines: Lines, stream: io.BytesIO, who, count: int) -> list[str]:

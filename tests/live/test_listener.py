@@ -6,7 +6,7 @@ import threading
 
 import numpy as np
 
-from onbeat.live.listener import Handover
+from onbeat.live.sound.listener import Handover
 
 
 def numbered(number: int, frames: int = 100) -> np.ndarray:

@@ -11,8 +11,8 @@ import pytest
 
 from fake_card import FakeCard
 from onbeat.errors import AudioError, MissingExtraError
-from onbeat.live import sound_card as its_module
-from onbeat.live.microphone import Microphone, inputs
+from onbeat.live.sound import sound_card as its_module
+from onbeat.live.sound.microphone import Microphone, inputs
 
 DESK = ("Desk", 8, 48000)
 USB = ("USB mic", 1, 44100)

@@ -10,11 +10,11 @@ import pytest
 
 from live_poses import ROBOT, pose, status
 from onbeat.errors import MissingExtraError, OnbeatError
-from onbeat.live import midi_ports
-from onbeat.live.midi import ClockOut
-from onbeat.live.midi_in import ClockIn
+from onbeat.live.mouths import midi_ports
+from onbeat.live.mouths.midi import ClockOut
+from onbeat.live.mouths.midi_in import ClockIn
+from onbeat.live.mouths.pulses import PER_BEAT, Pulses
 from onbeat.live.protocol import Clocked
-from onbeat.live.pulses import PER_BEAT, Pulses
 
 
 def played(beats: np.ndarray, hearing=lambda _: "music", until: float = 18.0, meter: int = 4) -> list[tuple]:

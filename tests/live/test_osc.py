@@ -13,9 +13,9 @@ from pythonosc.osc_message_builder import build_msg
 
 from live_poses import ROBOT, dancer, pose, status
 from onbeat.errors import OnbeatError
-from onbeat.live.osc import Osc
-from onbeat.live.osc_in import OscIn
-from onbeat.live.osc_packets import AT_ONCE, LARGEST, bundles, message
+from onbeat.live.mouths.osc import Osc
+from onbeat.live.mouths.osc_in import OscIn
+from onbeat.live.mouths.osc_packets import AT_ONCE, LARGEST, bundles, message
 from onbeat.live.protocol import BeatSaid, Command, Note
 
 

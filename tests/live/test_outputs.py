@@ -9,9 +9,9 @@ import pytest
 
 from live_poses import ROBOT, pose
 from onbeat.errors import OnbeatError
-from onbeat.live import outputs as module
-from onbeat.live.lateness import Lateness
-from onbeat.live.outputs import Outputs
+from onbeat.live.mouths import outputs as module
+from onbeat.live.mouths.lateness import Lateness
+from onbeat.live.mouths.outputs import Outputs
 from onbeat.live.protocol import Note
 
 

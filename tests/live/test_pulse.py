@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from onbeat.errors import AudioError
+from onbeat.live.beat.pulse import EAR_RATE, Heard, Pulse
 from onbeat.live.protocol import Clocked
-from onbeat.live.pulse import EAR_RATE, Heard, Pulse
 
 TICK = EAR_RATE // 100
 

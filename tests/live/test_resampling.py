@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.live.resampling import Resampler
+from onbeat.live.sound.resampling import Resampler
 
 
 def tone(hertz: float, rate: int, seconds: float = 1.0) -> np.ndarray:

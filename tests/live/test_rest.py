@@ -7,7 +7,7 @@ import pytest
 
 from onbeat.errors import PlanError
 from onbeat.examples.troupe import dance_library
-from onbeat.live.rest import BREATHS, SECONDS, resting
+from onbeat.live.bodies.rest import BREATHS, SECONDS, resting
 from onbeat.motion.body import Body
 from onbeat.motion.motion import Motion
 from onbeat.motion.skeleton import Skeleton

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from onbeat.errors import PlanError
-from onbeat.live.robot_dance import STANCE, prepare
+from onbeat.live.robot.dance import STANCE, prepare
 from onbeat.motion.hinges import hinge_angles
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.state import configurations
 from prepared_robots import prepared
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from onbeat.errors import PlanError
-from onbeat.live.robot_dance import STANCE, RobotDance
-from onbeat.live.robot_line import LONGEST, RobotLine
-from onbeat.live.robot_path import Path
+from onbeat.live.robot.dance import STANCE, RobotDance
+from onbeat.live.robot.line import LONGEST, RobotLine
+from onbeat.live.robot.path import Path
 from onbeat.motion import rotations as rot
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.ik import Legs
 from prepared_robots import prepared
 
 REST, DANCE = 0, 1

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from onbeat.live.protocol import RATE
-from onbeat.live.robot_ticks import AHEAD, EACH, Ticks
+from onbeat.live.robot.ticks import AHEAD, EACH, Ticks
 from onbeat.robots.state import configurations
 from prepared_robots import prepared
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from onbeat.live.outputs import Outputs
+from onbeat.live.mouths.outputs import Outputs
 from onbeat.live.protocol import Note, Pose, Step, Who
 from onbeat.live.run import STARVED, Pacer, Runner
 from onbeat.live.session import NOTHING_TOLD, Told

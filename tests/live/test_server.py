@@ -21,10 +21,10 @@ from websockets.sync.client import ClientConnection, connect
 
 from live_poses import dancer, pose, status
 from onbeat.errors import OnbeatError
-from onbeat.live import clients, wire
-from onbeat.live.http import Sound, welcome
+from onbeat.live.page import clients, wire
+from onbeat.live.page.http import Sound, welcome
+from onbeat.live.page.server import PORTS, POSE_EVERY, Server
 from onbeat.live.protocol import VERSION, Command, Note
-from onbeat.live.server import PORTS, POSE_EVERY, Server
 
 WHO = dancer(20)
 SOUND = Sound(bytes(range(256)) * 40, "audio/wav")
@@ -223,7 +223,7 @@ def test_a_port_that_is_taken_is_said_or_passed_by(served, monkeypatch):
         Server(b"", hello, print, port=taken).open(WHO)
     with pytest.raises(OnbeatError, match="expected an address of this machine"):
         Server(b"", hello, print, host="203.0.113.7", port=0).open(WHO)
-    monkeypatch.setattr("onbeat.live.server.PORTS", (taken, 0))
+    monkeypatch.setattr("onbeat.live.page.server.PORTS", (taken, 0))
     second = Server(b"", hello, print)
     second.open(WHO)
     assert f"port {taken} is taken" in second.note

@@ -9,9 +9,9 @@ import pytest
 
 from onbeat.examples.song import demo_song
 from onbeat.examples.troupe import dance_library
+from onbeat.live.beat.pulse import Pulse
 from onbeat.live.cast import Known, following
 from onbeat.live.protocol import BeatSaid, Command, Note, Status
-from onbeat.live.pulse import Pulse
 from onbeat.live.record import Digest
 from onbeat.live.session import LEAD, NOTHING_TOLD, Session, Told
 from onbeat.retime.bspline import Spline

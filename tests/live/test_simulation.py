@@ -9,12 +9,12 @@ import pytest
 
 from onbeat.errors import BodyError
 from onbeat.live.protocol import RATE, Note, Pose
-from onbeat.live.robot_ticks import AHEAD
-from onbeat.live.simulation import LYING, Simulation
-from onbeat.robots.disturb import Push
+from onbeat.live.robot.simulation import LYING, Simulation
+from onbeat.live.robot.ticks import AHEAD
 from onbeat.robots.simulate import simulate
+from onbeat.robots.simulation.disturb import Push
+from onbeat.robots.simulation.world import Options
 from onbeat.robots.state import configurations
-from onbeat.robots.world import Options
 from prepared_robots import prepared
 
 

@@ -8,11 +8,11 @@ import pytest
 from onbeat._shapes import Positions, Rotations
 from onbeat.examples.body import Build
 from onbeat.examples.troupe import dance_library
+from onbeat.live.beat.pulse import Pulse
+from onbeat.live.bodies.dancers import Character
+from onbeat.live.bodies.soles import Soles
 from onbeat.live.cast import Cast, Known, following
-from onbeat.live.dancers import Character
-from onbeat.live.pulse import Pulse
 from onbeat.live.session import Session
-from onbeat.live.soles import Soles
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.kinematics import forward_kinematics

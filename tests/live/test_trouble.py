@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from onbeat.live.trouble import Trouble
+from onbeat.live.sound.trouble import Trouble
 
 
 def test_a_trouble_that_comes_and_goes_quickly_is_said_once():

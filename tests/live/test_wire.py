@@ -10,7 +10,7 @@ import pytest
 
 from live_poses import dancer, pose, status
 from onbeat.errors import OnbeatError
-from onbeat.live import wire
+from onbeat.live.page import wire
 from onbeat.live.protocol import BeatSaid, Command, Note, Status
 
 CONTRACT = Path(__file__).resolve().parents[2] / "viewer-js" / "src" / "live" / "contract.ts"
@@ -18,7 +18,7 @@ CONTRACT = Path(__file__).resolve().parents[2] / "viewer-js" / "src" / "live" / 
 
 def test_the_pages_contract_is_written_from_these_classes():
     written = CONTRACT.read_text(encoding="utf-8")
-    assert written == wire.typescript(), "python -m onbeat.live.wire > viewer-js/src/live/contract.ts"
+    assert written == wire.typescript(), "python -m onbeat.live.page.wire > viewer-js/src/live/contract.ts"
     for part in ('type: "status";', 'hearing: "music" | "held" | "nothing";', "capsules: CapsuleData[];"):
         assert part in written
 

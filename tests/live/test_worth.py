@@ -10,8 +10,8 @@ from onbeat.dance.frames import lay_frames
 from onbeat.dance.optimal import Problem
 from onbeat.dance.score import FINE, Music
 from onbeat.errors import PlanError
-from onbeat.live.ground import PAD, Ground
-from onbeat.live.worth import Worth
+from onbeat.live.choice.ground import PAD, Ground
+from onbeat.live.choice.worth import Worth
 from onbeat.moves.library import MoveLibrary
 from walkable import clip, graph, random_problem
 

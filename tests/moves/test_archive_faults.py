@@ -18,7 +18,7 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.motion import Motion
 from onbeat.moves.build import build_library
-from onbeat.moves.lock import StorageError
+from onbeat.moves.disk.lock import StorageError
 from onbeat.moves.store import open_library
 
 FORKS = pytest.mark.skipif(not hasattr(os, "fork"), reason="needs processes that are forked")
@@ -28,8 +28,9 @@ FAULTS = """
 import json, os, resource, signal, sqlite3, sys, warnings
 from pathlib import Path
 from onbeat.errors import OnbeatError
-from onbeat.moves import build, stock
-from onbeat.moves.generations import Options
+from onbeat.moves import build
+from onbeat.moves.making import stock
+from onbeat.moves.making.generations import Options
 from onbeat.moves.recordings import find_recordings
 
 warnings.simplefilter("ignore")

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from onbeat.errors import LibraryError
-from onbeat.moves.blocks import NEAR, Group, Pairs, group_spans
+from onbeat.moves.pairs.blocks import NEAR, Group, Pairs, group_spans
 
 
 @given(st.lists(st.integers(0, 300), max_size=8), st.integers(20, 120))

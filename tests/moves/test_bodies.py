@@ -4,8 +4,8 @@ import msgspec
 import pytest
 
 from onbeat.errors import LibraryError
-from onbeat.moves.bodies import Body, skeleton_of, skeleton_text
-from onbeat.moves.clips import skeleton_digest
+from onbeat.moves.disk.bodies import Body, skeleton_of, skeleton_text
+from onbeat.moves.making.clips import skeleton_digest
 from onbeat.moves.recordings import content_digest, motion_digest
 from persons import person, swinging
 

@@ -9,12 +9,14 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion.retarget import retarget
-from onbeat.moves import build, joining, making, publish
+from onbeat.moves import build
 from onbeat.moves.build import assemble, build_library
-from onbeat.moves.generations import Options
-from onbeat.moves.groups import lots_of
 from onbeat.moves.library import SHORTEST
-from onbeat.moves.placing import batches
+from onbeat.moves.making import joining, publish
+from onbeat.moves.making import steps as making
+from onbeat.moves.making.generations import Options
+from onbeat.moves.making.groups import lots_of
+from onbeat.moves.making.placing import batches
 from onbeat.moves.recordings import Recording, find_recordings
 from onbeat.moves.store import open_library
 from persons import BVH, along_local_axes, person, swinging

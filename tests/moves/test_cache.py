@@ -7,8 +7,8 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.moves.build import build_library
 from onbeat.moves.cache import CacheWarning, build_from, build_or_open, cache_folder
-from onbeat.moves.lock import building
-from onbeat.moves.making import Making
+from onbeat.moves.disk.lock import building
+from onbeat.moves.making.steps import Making
 
 
 @pytest.fixture

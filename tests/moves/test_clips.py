@@ -4,7 +4,7 @@ import pytest
 
 from onbeat.errors import LibraryError
 from onbeat.motion import Skeleton
-from onbeat.moves.clips import GUESSED, read_recording
+from onbeat.moves.making.clips import GUESSED, read_recording
 from onbeat.moves.recordings import Recording
 from persons import along_local_axes, person, swinging
 

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from onbeat.moves.blocks import Group
-from onbeat.moves.candidates import Care
-from onbeat.moves.caps import capped, density_for
-from onbeat.moves.cells import cell_table, cells_of
-from onbeat.moves.coarse import APPROXIMATE, COARSE, cell_pairs
-from onbeat.moves.exact import exact_pairs
+from onbeat.moves.pairs.blocks import Group
+from onbeat.moves.pairs.candidates import Care
+from onbeat.moves.pairs.caps import capped, density_for
+from onbeat.moves.pairs.cells import cell_table, cells_of
+from onbeat.moves.pairs.coarse import APPROXIMATE, COARSE, cell_pairs
+from onbeat.moves.pairs.exact import exact_pairs
 from onbeat.moves.poses import pose_vectors
 
 EVERYTHING = Care(1e3, 1e3, 0.0, 1e3, 1e3, 1e3)

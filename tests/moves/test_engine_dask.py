@@ -18,8 +18,9 @@ import pytest
 
 import made_tasks as made
 from onbeat.errors import LibraryError, OnbeatError
-from onbeat.moves import engine_cluster, engine_dask
 from onbeat.moves.engine import Engine, EngineError, Parts, run
+from onbeat.moves.engines import cluster as engine_cluster
+from onbeat.moves.engines import dask as engine_dask
 
 pytest.importorskip("distributed", reason="a cluster needs the extra [scale]")
 psutil = pytest.importorskip("psutil")  # which distributed needs
@@ -31,7 +32,7 @@ if not hasattr(os, "fork"):
 NURSERY = """
 import json, os, signal, sys
 from distributed.cli import dask_scheduler, dask_worker
-import made_tasks, onbeat.moves.engine_orders
+import made_tasks, onbeat.moves.engines.orders
 
 children = []
 for line in sys.stdin:
@@ -184,14 +185,21 @@ def test_errors_come_back_from_a_cluster(cluster: Cluster):
     assert "in the task 7" in caught.value.__notes__[0]
 
 
-def test_many_small_tasks_go_together(cluster: Cluster):
+def test_many_small_tasks_go_together(cluster: Cluster, monkeypatch: pytest.MonkeyPatch):
+    orders: list[int] = []
+    submit = engine_dask.DaskCrew._submit
+
+    def counted(self: engine_dask.DaskCrew, numbers: tuple[int, ...]) -> None:
+        orders.append(len(numbers))
+        submit(self, numbers)
+
+    monkeypatch.setattr(engine_dask.DaskCrew, "_submit", counted)
     found: dict[int, int] = {}
     with cluster.engine.crew() as crew:
-        begin = time.monotonic()
         crew.run(range(-2000, 0), abs, found.__setitem__)
-        each = (time.monotonic() - begin) / 2000
     assert found == {task: -task for task in range(-2000, 0)}
-    assert each < 0.005, "one message each would cost more, on any machine"
+    assert sum(orders) >= 2000
+    assert len(orders) < 400, "the first go alone, then ever more together"
 
 
 def test_workers_of_another_version_are_refused(cluster: Cluster, monkeypatch: pytest.MonkeyPatch):
@@ -224,6 +232,6 @@ def test_a_cluster_that_loses_everything_is_told_and_does_not_hang(
     with scheduled(nursery, tmp_path) as lonely:
         with pytest.raises(EngineError, match="no worker"):
             lonely.engine.crew()
-        monkeypatch.setattr(engine_cluster, "PATIENCE", 30.0)
+        monkeypatch.setattr(engine_cluster, "PATIENCE", 120.0)
         with lonely.worker() as worker, pytest.raises(EngineError, match="no worker"):
             run(range(500), made.who, lambda *_: kill(worker), lonely.engine)

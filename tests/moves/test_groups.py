@@ -5,7 +5,7 @@ import itertools
 
 import numpy as np
 
-from onbeat.moves.groups import RIM, Member, lots_of
+from onbeat.moves.making.groups import RIM, Member, lots_of
 
 
 def members(count, frames=400):

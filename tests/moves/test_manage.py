@@ -7,8 +7,8 @@ import pytest
 from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.motion.retarget import retarget
-from onbeat.moves import compact
 from onbeat.moves.build import build_library
+from onbeat.moves.making import compact
 from onbeat.moves.manage import merge_libraries, remove_recordings
 from onbeat.moves.store import open_library
 from onbeat.moves.verify import verify_library

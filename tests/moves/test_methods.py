@@ -11,9 +11,23 @@ from onbeat.moves import methods
 ROOT = Path(methods.__file__).parents[1]
 # what decides nothing of what is made: containers, transport, and what is told of recordings
 NEUTRAL = {
-    *("moves/engine*.py", "moves/index.py", "moves/lock.py", "moves/methods.py", "moves/shards.py", "moves/stock.py"),
-    *("moves/bodies.py", "moves/compact.py", "moves/generations.py", "moves/graph_files.py", "moves/sweep.py"),
-    "moves/undo.py",
+    *(
+        "moves/engine.py",
+        "moves/engines/*.py",
+        "moves/disk/index.py",
+        "moves/disk/lock.py",
+        "moves/methods.py",
+        "moves/disk/shards.py",
+        "moves/making/stock.py",
+    ),
+    *(
+        "moves/disk/bodies.py",
+        "moves/making/compact.py",
+        "moves/making/generations.py",
+        "moves/disk/graph_files.py",
+        "moves/making/sweep.py",
+    ),
+    "moves/disk/undo.py",
 }
 
 
@@ -41,10 +55,10 @@ def imported(text: str) -> set[str]:
 @pytest.mark.parametrize(
     ("module", "names"),
     [
-        ("placing", ("_READING", "_JOINING")),
+        ("making/placing", ("_READING", "_JOINING")),
         ("similarity", ("_JOINING",)),
-        ("joining", ("_READING", "_JOINING")),
-        ("publish", ("_READING", "_JOINING", "_REST")),
+        ("making/joining", ("_READING", "_JOINING")),
+        ("making/publish", ("_READING", "_JOINING", "_REST")),
     ],
 )
 def test_every_module_that_is_used_is_in_the_digest(module, names):

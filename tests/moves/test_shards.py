@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from onbeat.errors import LibraryError
-from onbeat.moves import shards
-from onbeat.moves.shards import DiskShards, MemoryShards, Span
+from onbeat.moves.disk import shards
+from onbeat.moves.disk.shards import DiskShards, MemoryShards, Span
 
 
 @pytest.mark.parametrize("made", [lambda folder: DiskShards(folder, "clips"), lambda folder: MemoryShards()])

@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from threadpoolctl import threadpool_limits
 
 from onbeat.errors import LibraryError
-from onbeat.moves import blocks, exact, similarity
-from onbeat.moves.blocks import Group
+from onbeat.moves import similarity
+from onbeat.moves.pairs import blocks, exact
+from onbeat.moves.pairs.blocks import Group
 from onbeat.moves.similarity import Search, block_pairs, clip_pairs, search_for
 
 

@@ -12,8 +12,8 @@ from onbeat.errors import LibraryError
 from onbeat.formats import write_motion
 from onbeat.moves import store
 from onbeat.moves.build import build_library
-from onbeat.moves.index import create_index
-from onbeat.moves.lock import StorageError, building
+from onbeat.moves.disk.index import create_index
+from onbeat.moves.disk.lock import StorageError, building
 from onbeat.moves.store import open_library, read_stored
 from onbeat.moves.verify import verify_library
 from stored_libraries import change, kept
@@ -236,7 +236,7 @@ def test_two_builders_at_once_are_refused(stored, clips_folder, dances):
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
 def test_the_lock_of_a_killed_process_is_taken_over(tmp_path):
     holds = (
-        "import sys, pathlib; from onbeat.moves.lock import building\n"
+        "import sys, pathlib; from onbeat.moves.disk.lock import building\n"
         f"with building(pathlib.Path({str(tmp_path)!r})): print('held', flush=True); sys.stdin.read()"
     )
     with subprocess.Popen([sys.executable, "-c", holds], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:

@@ -8,8 +8,8 @@ import pytest
 
 from onbeat.formats import read_motion
 from onbeat.moves.library import GRID
+from onbeat.moves.making.twins import find_twins
 from onbeat.moves.poses import DIRECTIONS, VELOCITIES, pose_vectors
-from onbeat.moves.twins import find_twins
 
 SECONDS = np.arange(120) / GRID
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from onbeat.errors import LibraryError
-from onbeat.moves import index
-from onbeat.moves.index import DamagedIndexError, create_index, open_index
+from onbeat.moves.disk import index
+from onbeat.moves.disk.index import DamagedIndexError, create_index, open_index
 
 ROWS = "INSERT INTO readings (content, method, body, seconds, notes) VALUES (?, ?, '', 0, '[]')"
 

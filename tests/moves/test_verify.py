@@ -7,7 +7,7 @@ import pytest
 
 from onbeat.errors import LibraryError
 from onbeat.moves.build import build_library
-from onbeat.moves.lock import building
+from onbeat.moves.disk.lock import building
 from onbeat.moves.verify import verify_library
 from stored_libraries import change
 

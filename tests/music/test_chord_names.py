@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.music.chord_names import TONES, chord_likeness, name_chords
-from onbeat.music.key import find_key
+from onbeat.music.harmony.key import find_key
+from onbeat.music.harmony.names import TONES, chord_likeness, name_chords
 from onbeat.music.profile import Profile, Profiler
 from sounds import hat, kick, mix, piano, snare
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from onbeat.music.bars import downbeat_log_odds, find_downbeats
-from onbeat.music.chords import between_beats, chord_change, harmony_change, harmony_slices, new_harmony
+from onbeat.music.harmony.chords import between_beats, chord_change, harmony_change, harmony_slices, new_harmony
 from onbeat.music.hearing import Hearing, hear
 from onbeat.music.profile import Profiler
 from sounds import mix, piano

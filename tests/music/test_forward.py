@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.music.forward import LEAP, RESTART, ForwardFilter
+from onbeat.music.streaming.forward import LEAP, RESTART, ForwardFilter
 from onbeat.music.tempo import beat_space
 
 SMALL = 8.0  # [Hz], for 11 intervals of 2 to 12 frames

@@ -182,9 +182,9 @@ def test_a_probe_takes_milliseconds():
     )  # fmt: skip
     model = TensorModel.fit(known)
     model.match(known, "task")
-    start = time.perf_counter()
+    start = time.process_time()
     model.match(known, "task")
-    assert (time.perf_counter() - start) / 136 < 0.05
+    assert (time.process_time() - start) / 136 < 0.05
 
 
 def test_real_gestures_of_another_take_are_recognised(data: Path):

@@ -7,9 +7,9 @@ import pytest
 
 from onbeat.errors import BodyError
 from onbeat.robots.balance import BOUND, balanced
-from onbeat.robots.contacts import sole_corners, support
-from onbeat.robots.leg_ik import Legs
-from onbeat.robots.legs import planted, stepping
+from onbeat.robots.legs.contacts import sole_corners, support
+from onbeat.robots.legs.ik import Legs
+from onbeat.robots.legs.own import planted, stepping
 from onbeat.robots.state import configurations, derivatives
 from onbeat.robots.zmp import zmp
 from robot_dances import made_dance

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from onbeat.robots.clear import LEAST, cleared, gaps
-from onbeat.robots.collision import capsules_of
-from onbeat.robots.directions import aims_of
-from onbeat.robots.ik import ROOT, tree_of
+from onbeat.robots.ik.clear import LEAST, cleared, gaps
+from onbeat.robots.ik.collision import capsules_of
+from onbeat.robots.ik.directions import aims_of
+from onbeat.robots.ik.trajectory import Problem, Rules, solve
+from onbeat.robots.ik.tree import ROOT, tree_of
 from onbeat.robots.model import robot_named
-from onbeat.robots.trajectory import Problem, Rules, solve
 
 pytest.importorskip("mujoco")
 

@@ -5,7 +5,7 @@ import pytest
 
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
-from onbeat.robots.collision import capsules_of, clearances, nearest
+from onbeat.robots.ik.collision import capsules_of, clearances, nearest
 from onbeat.robots.model import robot_named
 
 pytest.importorskip("mujoco")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from onbeat.errors import BodyError, LimitError
-from onbeat.robots.description_toml import described, described_robots, description_of, read_description
+from onbeat.robots.description.toml import described, described_robots, description_of, read_description
 from onbeat.robots.model import robot_from
 
 LEG = """

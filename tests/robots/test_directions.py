@@ -5,7 +5,7 @@ import pytest
 
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
-from onbeat.robots.directions import APART, TILT, aims_of, flatter
+from onbeat.robots.ik.directions import APART, TILT, aims_of, flatter
 from onbeat.robots.model import robot_named
 
 pytest.importorskip("mujoco")

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from onbeat.errors import BodyError
-from onbeat.robots import disturb
 from onbeat.robots.model import robot_named
+from onbeat.robots.simulation import disturb
 
 
 def model():

@@ -9,9 +9,9 @@ import pytest
 
 from onbeat.errors import BodyError
 from onbeat.motion import rotations as rot
-from onbeat.robots.estimator import Estimate, Noise, State, Truth, brought_on
 from onbeat.robots.model import robot_named
-from onbeat.robots.reference import Reference, reference
+from onbeat.robots.simulation.estimator import Estimate, Noise, State, Truth, brought_on
+from onbeat.robots.simulation.reference import Reference, reference
 from onbeat.robots.state import motion_of
 
 RATE = 500.0

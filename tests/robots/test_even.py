@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import FormatError
-from onbeat.robots.even import even_rate
+from onbeat.robots.sequences.even import even_rate
 
 
 @pytest.mark.parametrize("fps", [1, 23.976, 30, 59.94, 60, 200, 1000])

@@ -5,8 +5,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from onbeat.robots.fall import Ground, fallen
 from onbeat.robots.model import robot_named
+from onbeat.robots.simulation.fall import Ground, fallen
 
 UP, NONE = np.array([0, 0, 1.0]), np.zeros(0, np.bool_)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.robots.feedback import inset, law_of, loads, pressed
 from onbeat.robots.model import robot_named
-from onbeat.robots.reference import reference
+from onbeat.robots.simulation.feedback import inset, law_of, loads, pressed
+from onbeat.robots.simulation.reference import reference
 from onbeat.robots.state import motion_of
 
 SOLES = np.array([[x, y, 0.0] for side in (1, -1) for y in (0.15 * side, 0.1 * side) for x in (0.12, -0.05)])

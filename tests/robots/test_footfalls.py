@@ -7,8 +7,8 @@ import itertools
 import numpy as np
 import pytest
 
-from onbeat.robots.footfalls import BOTH, CLEARANCE, NEAREST, QUICKEST, WIDEST, Stand, footfalls
-from onbeat.robots.tasks import Task
+from onbeat.robots.legs.footfalls import BOTH, CLEARANCE, NEAREST, QUICKEST, WIDEST, Stand, footfalls
+from onbeat.robots.legs.tasks import Task
 
 HIPS = 0.2
 FIRST = Stand(np.array([[0.0, 0.1], [0.0, -0.1]]), np.zeros(2))

@@ -11,8 +11,8 @@ import pytest
 from onbeat.errors import FormatError
 from onbeat.motion import rotations as rot
 from onbeat.motion.motion import Motion
-from onbeat.robots.hrpsys import read_hrpsys, write_hrpsys
 from onbeat.robots.model import robot_named
+from onbeat.robots.sequences.hrpsys import read_hrpsys, write_hrpsys
 from onbeat.robots.state import configurations, motion_of
 
 ROBOT = robot_named("hrp4c")

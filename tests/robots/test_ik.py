@@ -5,7 +5,7 @@ import numpy as np
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
 from onbeat.motion.unitree_g1 import G1
-from onbeat.robots.ik import ROOT, add_point, pose, tree_of, unposed
+from onbeat.robots.ik.tree import ROOT, add_point, pose, tree_of, unposed
 
 
 def posed(x, place, turn):

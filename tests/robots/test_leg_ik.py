@@ -9,7 +9,7 @@ import pytest
 
 from onbeat.errors import BodyError
 from onbeat.motion import rotations as rot
-from onbeat.robots.leg_ik import STRAIGHTEST, Leg, Legs
+from onbeat.robots.legs.ik import STRAIGHTEST, Leg, Legs
 from onbeat.robots.model import robot_named
 from onbeat.robots.state import motion_of
 

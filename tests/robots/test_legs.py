@@ -8,9 +8,9 @@ import pytest
 from onbeat.errors import BodyError
 from onbeat.motion.contacts import runs
 from onbeat.motion.unitree_g1 import G1
-from onbeat.robots.contacts import sole_corners
-from onbeat.robots.leg_ik import Legs
-from onbeat.robots.legs import planted, stepping
+from onbeat.robots.legs.contacts import sole_corners
+from onbeat.robots.legs.ik import Legs
+from onbeat.robots.legs.own import planted, stepping
 from onbeat.robots.model import robot_named
 from onbeat.robots.state import configurations
 from robot_dances import SQUAT, STEPS, made_dance

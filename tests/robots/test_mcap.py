@@ -11,8 +11,8 @@ import pytest
 from onbeat.errors import FormatError, MissingExtraError
 from onbeat.motion import rotations as rot
 from onbeat.motion.motion import Motion
-from onbeat.robots.mcap import JOINTS, read_mcap, write_mcap
 from onbeat.robots.model import robot_named
+from onbeat.robots.sequences.mcap import JOINTS, read_mcap, write_mcap
 from onbeat.robots.state import configurations, derivatives, motion_of
 
 G1 = robot_named("g1")

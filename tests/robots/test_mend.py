@@ -3,9 +3,9 @@
 import numpy as np
 
 from onbeat.motion.unitree_g1 import G1
-from onbeat.robots.ik import ROOT
-from onbeat.robots.mend import spread, stretches_of
-from onbeat.robots.trajectory import Rules
+from onbeat.robots.ik.mend import spread, stretches_of
+from onbeat.robots.ik.trajectory import Rules
+from onbeat.robots.ik.tree import ROOT
 
 
 def test_troubles_that_are_near_are_one_stretch():

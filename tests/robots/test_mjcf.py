@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import msgspec
 
-from onbeat.robots.description_toml import described
+from onbeat.robots.description.mjcf import STEP, mjcf_of
+from onbeat.robots.description.toml import described
 from onbeat.robots.engine import engine
-from onbeat.robots.mjcf import STEP, mjcf_of
 
 
 def test_names_are_quoted_and_pads_touch_the_floor():

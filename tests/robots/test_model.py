@@ -19,7 +19,7 @@ from onbeat.motion.body import Body
 from onbeat.motion.hinges import HingeBody
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.unitree_g1 import G1
-from onbeat.robots.description_toml import described
+from onbeat.robots.description.toml import described
 from onbeat.robots.engine import engine
 from onbeat.robots.model import Robot, robot_from, robot_named, robot_of
 

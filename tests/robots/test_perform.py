@@ -13,7 +13,7 @@ from onbeat.examples.dances import perform_dance
 from onbeat.motion.hinges import hinge_angles
 from onbeat.retime.lock import TimeMap
 from onbeat.robots.document import robot_document
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import robot_named
 from onbeat.robots.perform import Staged, is_of, limits_of, stage
 from onbeat.robots.simulate import Options, simulate

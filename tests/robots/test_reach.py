@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from onbeat.robots.hips import CROUCHED, feet_below, hips_apart, standing_height
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.hips import CROUCHED, feet_below, hips_apart, standing_height
+from onbeat.robots.legs.ik import Legs
+from onbeat.robots.legs.reach import below, reachable
 from onbeat.robots.model import robot_named
-from onbeat.robots.reach import below, reachable
 
 LEGS = Legs.of(robot_named("g1"))
 

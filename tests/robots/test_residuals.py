@@ -3,7 +3,7 @@
 import numpy as np
 
 from onbeat.motion import rotations as rot
-from onbeat.robots.residuals import turned
+from onbeat.robots.ik.residuals import turned
 
 
 def test_the_wrong_turn_is_the_rotation_vector_between_two_matrices():

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from onbeat.robots.description_toml import described
-from onbeat.robots.rest import excluded, rest_frames, segment_distances, standing_height
+from onbeat.robots.description.rest import excluded, rest_frames, segment_distances, standing_height
+from onbeat.robots.description.toml import described
 
 POINT = st.tuples(*[st.floats(-1, 1).map(lambda x: round(x, 2))] * 3)
 

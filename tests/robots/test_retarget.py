@@ -6,7 +6,7 @@ import pytest
 from onbeat.motion.body import Body
 from onbeat.motion.hinges import hinge_angles
 from onbeat.motion.motion import Motion
-from onbeat.robots.collision import capsules_of, clearances
+from onbeat.robots.ik.collision import capsules_of, clearances
 from onbeat.robots.model import robot_named
 from onbeat.robots.retarget import held_back, retarget
 

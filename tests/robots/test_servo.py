@@ -8,7 +8,7 @@ import pytest
 
 from onbeat.errors import BodyError
 from onbeat.robots.model import robot_named
-from onbeat.robots.servo import Gains, servos
+from onbeat.robots.simulation.servo import Gains, servos
 
 POSE = np.array([0, 0, 0.78, 1, 0, 0, 0, *np.zeros(29)])
 

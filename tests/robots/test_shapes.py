@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from onbeat.motion import rotations as rot
-from onbeat.robots.shapes import bone, box, cloud, cylinder, sphere
+from onbeat.robots.description.shapes import bone, box, cloud, cylinder, sphere
 
 
 def test_capsules_are_about_as_large_as_the_shapes():

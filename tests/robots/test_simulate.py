@@ -7,10 +7,10 @@ import pytest
 
 from onbeat.errors import BodyError
 from onbeat.motion import Motion
-from onbeat.robots.disturb import Push
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import Robot, robot_named
 from onbeat.robots.simulate import Options, simulate
+from onbeat.robots.simulation.disturb import Push
 from onbeat.robots.state import configurations, motion_of
 from onbeat.robots.zmp import centres_of_mass
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import BodyError
-from onbeat.robots.stl import read_stl
+from onbeat.robots.description.stl import read_stl
 
 CORNERS = np.arange(18, dtype=np.float32).reshape(2, 3, 3)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from onbeat.robots.tasks import tasks
+from onbeat.robots.legs.tasks import tasks
 from robot_dances import SQUAT, STEPS, WAY, made_dance
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from onbeat.robots.collision import capsules_of
-from onbeat.robots.directions import aims_of
-from onbeat.robots.ik import ROOT, tree_of
+from onbeat.robots.ik.collision import capsules_of
+from onbeat.robots.ik.directions import aims_of
+from onbeat.robots.ik.trajectory import Normal, Problem, Rules, _state, solve  # pyright: ignore[reportPrivateUsage]
+from onbeat.robots.ik.tree import ROOT, tree_of
 from onbeat.robots.model import robot_named
-from onbeat.robots.trajectory import Normal, Problem, Rules, _state, solve  # pyright: ignore[reportPrivateUsage]
 
 pytest.importorskip("mujoco")
 

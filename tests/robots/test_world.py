@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from onbeat.robots.reference import Reference, reference
-from onbeat.robots.world import RATE, Options, World
+from onbeat.robots.simulation.reference import Reference, reference
+from onbeat.robots.simulation.world import RATE, Options, World
 from robot_dances import made_dance
 
 

@@ -13,8 +13,8 @@ import soundfile
 from onbeat.dance.document import DanceDocument
 from onbeat.errors import OnbeatError
 from onbeat.examples.troupe import dance_library
-from onbeat.formats.bvh_write import write_bvh
-from onbeat.formats.trc_write import write_trc
+from onbeat.formats.bvh.write import write_bvh
+from onbeat.formats.trc.write import write_trc
 from onbeat.motion import Markers, Motion
 from onbeat.studio import advice
 from onbeat.studio.clip_list import ClipList

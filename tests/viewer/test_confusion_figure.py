@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from onbeat.errors import OnbeatError
-from onbeat.viewer.confusion_figure import names_of, write_confusion
+from onbeat.viewer.plots.confusion import names_of, write_confusion
 
 
 def test_what_is_right_lies_on_the_diagonal() -> None:

@@ -12,7 +12,7 @@ import pytest
 from onbeat.dance.make import make_dance
 from onbeat.examples import embedded_song
 from onbeat.moves.library import MoveLibrary
-from onbeat.viewer.dance_page import write_dance_page
+from onbeat.viewer.pages.dance import write_dance_page
 
 
 def test_the_page_holds_the_graph_and_the_warp(troupe: MoveLibrary, tmp_path: Path) -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from onbeat.viewer.camera import Camera
 from onbeat.viewer.figure import Figure
-from onbeat.viewer.flashes import BEAT, DOWNBEAT, FADE, Flashes
-from onbeat.viewer.raster import render_frame
+from onbeat.viewer.film.flashes import BEAT, DOWNBEAT, FADE, Flashes
+from onbeat.viewer.render.camera import Camera
+from onbeat.viewer.render.raster import render_frame
+from onbeat.viewer.render.stage import Ring, Stage
 from onbeat.viewer.shape import Capsule
-from onbeat.viewer.stage import Ring, Stage
 
 FLASHES = Flashes.on(np.array([1.5, 1.0]), np.array([1.5004]))
 PLACES = np.array([[0.0, 0.0], [2.0, 3.0]])

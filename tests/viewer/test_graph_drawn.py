@@ -8,7 +8,7 @@ import pytest
 from onbeat.motion import Motion
 from onbeat.moves.graph import GRID, MotionGraph
 from onbeat.moves.library import Clip, MoveLibrary
-from onbeat.viewer.graph_drawn import CLIPS, JOINS, drawn_graph
+from onbeat.viewer.pages.graph_drawn import CLIPS, JOINS, drawn_graph
 
 FRAMES = 120
 

@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from onbeat.viewer.in_order import in_order
+from onbeat.viewer.film.in_order import in_order
 
 
 def test_what_is_made_late_still_comes_in_its_turn() -> None:

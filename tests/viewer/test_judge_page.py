@@ -15,9 +15,9 @@ from folk_dancers import spaces_of
 from onbeat.errors import MetricError
 from onbeat.keyposes.judging import SPACES, trials
 from onbeat.keyposes.lowdim import LowDimensional
-from onbeat.viewer.judge_page import FPS, LONGEST, stretches, write_judge_page
-from onbeat.viewer.lowdim_figures import write_lowdim_figures
-from onbeat.viewer.lowdim_pictures import (
+from onbeat.viewer.pages.judge import FPS, LONGEST, stretches, write_judge_page
+from onbeat.viewer.plots.lowdim import write_lowdim_figures
+from onbeat.viewer.plots.lowdim_pictures import (
     CAPTION,
     both_sides,
     dimensions_picture,

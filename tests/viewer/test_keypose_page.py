@@ -14,10 +14,10 @@ import pytest
 from folk_dancers import dancers
 from onbeat.keyposes.extract import Options, find_keyposes
 from onbeat.motion import Markers, Motion
-from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import CurveData, unpack_curve, unpack_path
-from onbeat.viewer.keypose_page import dotted, write_keypose_page
-from onbeat.viewer.page import render_page
+from onbeat.viewer.pages.content import page_data
+from onbeat.viewer.pages.keyposes import dotted, write_keypose_page
+from onbeat.viewer.pages.page import render_page
 
 
 def data_in(page: bytes) -> dict[str, Any]:

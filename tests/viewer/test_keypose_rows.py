@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from onbeat.viewer.keypose_rows import MOST, in_beats, keypose_numbers, rows_of, spread
+from onbeat.viewer.keypose.rows import MOST, in_beats, keypose_numbers, rows_of, spread
 
 NONE = np.zeros(0)
 

@@ -18,9 +18,9 @@ from onbeat.errors import OnbeatError
 from onbeat.keyposes.candidates import Thresholds
 from onbeat.keyposes.extract import Keyposes, Options, find_keyposes
 from onbeat.motion import Markers, Motion
-from onbeat.viewer.keypose_drawing import LOOKS
-from onbeat.viewer.keypose_poses import fitted, pose_pictures, poses_at
-from onbeat.viewer.keypose_sheet import A4, DPI, keypose_pages, save_pages, write_keypose_sheet
+from onbeat.viewer.keypose.drawing import LOOKS
+from onbeat.viewer.keypose.poses import fitted, pose_pictures, poses_at
+from onbeat.viewer.keypose.sheet import A4, DPI, keypose_pages, save_pages, write_keypose_sheet
 
 
 @cache

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from onbeat.errors import OnbeatError
-from onbeat.viewer import live_page as module
-from onbeat.viewer.live_page import live_page
+from onbeat.viewer.pages import live as module
+from onbeat.viewer.pages.live import live_page
 
 
 def test_it_holds_all_it_needs():

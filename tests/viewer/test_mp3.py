@@ -10,8 +10,8 @@ import pytest
 import soundfile
 
 from onbeat.errors import AudioError
-from onbeat.viewer import mp3
 from onbeat.viewer.contract import AudioData, unpack_curve
+from onbeat.viewer.pages import mp3
 
 
 def decoded(audio: AudioData) -> tuple[np.ndarray, int]:

@@ -16,10 +16,10 @@ import pytest
 from onbeat.errors import OnbeatError
 from onbeat.motion import Motion, Skeleton
 from onbeat.music.song import Song
-from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import VERSION, ClipData, GraphData, JoinData, PageData, unpack_curve, unpack_path
-from onbeat.viewer.graph_drawn import CLIPS, JOINS
-from onbeat.viewer.page import filled, render_page, write_page
+from onbeat.viewer.pages.content import page_data
+from onbeat.viewer.pages.graph_drawn import CLIPS, JOINS
+from onbeat.viewer.pages.page import filled, render_page, write_page
 
 HOSTILE = '</script><script>alert("1")</script><!-- \u2028 &amp; <img src=x onerror=alert(2)>'
 VIEWER_JS = Path(__file__).resolve().parents[2] / "viewer-js"

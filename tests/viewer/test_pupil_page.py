@@ -13,9 +13,9 @@ import pytest
 from folk_dancers import dancers
 from onbeat.errors import OnbeatError
 from onbeat.recognition.ghost import Beside, beside
-from onbeat.viewer.heat import colours, hex_scale, scale_end
-from onbeat.viewer.pupil_figure import worst, write_pupil_figure
-from onbeat.viewer.pupil_page import write_pupil_page
+from onbeat.viewer.pages.pupil import write_pupil_page
+from onbeat.viewer.plots.heat import colours, hex_scale, scale_end
+from onbeat.viewer.plots.pupil import worst, write_pupil_figure
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from onbeat.motion import Motion, Skeleton
-from onbeat.viewer.camera import Camera, follow
-from onbeat.viewer.cones import cones_from, hit, outward
 from onbeat.viewer.figure import Figure, ground_height
-from onbeat.viewer.raster import render_frame
+from onbeat.viewer.render.camera import Camera, follow
+from onbeat.viewer.render.cones import cones_from, hit, outward
+from onbeat.viewer.render.raster import render_frame
+from onbeat.viewer.render.stage import Stage
 from onbeat.viewer.shape import GROUPS, Capsule
 from onbeat.viewer.sheet import contact_sheet, png_bytes
-from onbeat.viewer.stage import Stage
 
 SIZE = (160, 90)
 CAMERA = Camera((0.0, -5.0, 1.2), (0.0, 0.0, 1.0))

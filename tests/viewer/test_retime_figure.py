@@ -16,8 +16,9 @@ from onbeat.motion.joint_angles import JointAngles
 from onbeat.retime.lock import TimeMap, lock
 from onbeat.retime.retime import Retimed, retime
 from onbeat.retime.sources import Character, Source, Table
-from onbeat.viewer.limits_figure import limits_figure, write_limits_figure
-from onbeat.viewer.retime_curves import (
+from onbeat.viewer.plots.limits import limits_figure, write_limits_figure
+from onbeat.viewer.plots.retime import COLOURS, retime_figure, write_retime_figure
+from onbeat.viewer.plots.retime_curves import (
     Look,
     changed,
     joint_told,
@@ -27,7 +28,6 @@ from onbeat.viewer.retime_curves import (
     speed_told,
     speed_use,
 )
-from onbeat.viewer.retime_figure import COLOURS, retime_figure, write_retime_figure
 
 FPS = 60.0
 TIMES = np.arange(0, 14, 1 / FPS)
@@ -124,7 +124,7 @@ def test_shares_of_the_limit_are_those_of_the_speed(free: Retimed):
 
 def test_long_dances_are_looked_at_in_parts(results: list[Retimed], monkeypatch: pytest.MonkeyPatch):
     whole = speed_use(results[0], results[0].demand.wish)
-    monkeypatch.setattr("onbeat.viewer.retime_curves.AT_ONCE", 501)
+    monkeypatch.setattr("onbeat.viewer.plots.retime_curves.AT_ONCE", 501)
     parts = speed_use(results[0], results[0].demand.wish)
     assert np.array_equal(whole.highest, parts.highest)
     assert np.array_equal(whole.seconds_over, parts.seconds_over)

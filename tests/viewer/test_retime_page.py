@@ -23,8 +23,8 @@ from onbeat.retime.lock import TimeMap, lock
 from onbeat.retime.retime import Retimed, retime
 from onbeat.retime.sources import Table, source_of
 from onbeat.viewer.contract import CurveData, PathData, unpack_curve, unpack_path
-from onbeat.viewer.retime_curves import over_limits
-from onbeat.viewer.retime_page import on_music_clock, retime_page, write_retime_page
+from onbeat.viewer.pages.retime import on_music_clock, retime_page, write_retime_page
+from onbeat.viewer.plots.retime_curves import over_limits
 
 BEATS = np.arange(8) * 0.5
 KEYPOSES = np.arange(0.5, 4.0, 1.0)

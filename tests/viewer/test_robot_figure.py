@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from onbeat.errors import OnbeatError
-from onbeat.viewer.robot_figure import FALL, Measured, robot_figure, stretches, write_robot_figure
+from onbeat.viewer.plots.robot import FALL, Measured, robot_figure, stretches, write_robot_figure
 
 FRAMES = 120
 TIMES = 3.0 + np.arange(FRAMES) / 30

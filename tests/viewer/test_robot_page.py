@@ -15,11 +15,11 @@ from onbeat.examples import embedded_song
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
-from onbeat.robots.collision import capsules_of
+from onbeat.robots.ik.collision import capsules_of
 from onbeat.robots.model import Robot, robot_named
 from onbeat.viewer.contract import PageData, PathData, unpack_path
-from onbeat.viewer.page import write_filled
-from onbeat.viewer.robot_page import apart, kept_beside, robot_page_data, together
+from onbeat.viewer.pages.page import write_filled
+from onbeat.viewer.pages.robot import apart, kept_beside, robot_page_data, together
 from onbeat.viewer.robot_shape import ROBOT
 
 BEATS = np.arange(0.25, 4.0, 0.5)

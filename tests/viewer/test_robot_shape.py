@@ -8,7 +8,7 @@ import pytest
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
-from onbeat.robots.collision import capsules_of
+from onbeat.robots.ik.collision import capsules_of
 from onbeat.robots.model import Robot, robot_named
 from onbeat.viewer.robot_shape import ROBOT, robot_shape
 

@@ -8,7 +8,7 @@ import pytest
 from onbeat.examples.body import Build
 from onbeat.motion import Body, Motion
 from onbeat.motion import rotations as rot
-from onbeat.viewer.steps import steps_of
+from onbeat.viewer.pages.steps import steps_of
 
 
 def walker() -> Motion:

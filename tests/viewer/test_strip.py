@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from onbeat.viewer.strip import PAPER, Strip
+from onbeat.viewer.film.strip import PAPER, Strip
 
 
 def corner(stops: list[float], height: int, marked: str = "stops") -> np.ndarray:

@@ -11,9 +11,10 @@ import pytest
 from onbeat.errors import MissingExtraError, OnbeatError
 from onbeat.motion import Motion, Skeleton
 from onbeat.music.song import Song
-from onbeat.viewer import in_order, video
-from onbeat.viewer.flashes import Flashes
-from onbeat.viewer.strip import HEAD
+from onbeat.viewer import video
+from onbeat.viewer.film import in_order
+from onbeat.viewer.film.flashes import Flashes
+from onbeat.viewer.film.strip import HEAD
 from onbeat.viewer.video import write_video
 
 SIZE = (160, 90)

@@ -205,7 +205,7 @@ def _staged(output: Path) -> Generator[Path]:
 def _write(folder: Path, dance: Dance, library: MoveLibrary, sound: Sound, film: Film | None, stages: Stages) -> None:
     from onbeat.files import write_atomically
     from onbeat.formats.write import write_motion
-    from onbeat.viewer.dance_page import write_dance_page
+    from onbeat.viewer.pages.dance import write_dance_page
 
     stages("writing", 0.0)
     write_motion(dance.motion, folder / "dance.bvh")
@@ -221,7 +221,7 @@ def _write(folder: Path, dance: Dance, library: MoveLibrary, sound: Sound, film:
 
 
 def _film(path: Path, dance: Dance, sound: Sound, film: Film, stages: Stages) -> None:
-    from onbeat.viewer.flashes import Flashes
+    from onbeat.viewer.film.flashes import Flashes
     from onbeat.viewer.video import write_video
 
     flashes = Flashes.on(dance.song.beats, dance.song.downbeats) if film.flash else None

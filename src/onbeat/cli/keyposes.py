@@ -165,9 +165,9 @@ def _write(
     folder: Path, found: Keyposes, source: Motion | Markers, document: bytes, title: str, downbeats: np.ndarray,
     cycle: int | None, flags: BeatFlags, stages: Stages,
 ) -> None:  # fmt: skip
-    from onbeat.viewer.keypose_page import write_keypose_page
-    from onbeat.viewer.keypose_poses import fitted
-    from onbeat.viewer.keypose_sheet import keypose_pages, save_pages
+    from onbeat.viewer.keypose.poses import fitted
+    from onbeat.viewer.keypose.sheet import keypose_pages, save_pages
+    from onbeat.viewer.pages.keyposes import write_keypose_page
 
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -335,7 +335,7 @@ def evaluate_command(
     rows = compare(read, np.random.default_rng(seed), tolerance, options)
     swept = sweep(read, tolerance=tolerance)
     if plot:
-        from onbeat.viewer.threshold_figure import write_threshold_figure
+        from onbeat.viewer.plots.thresholds import write_threshold_figure
 
         write_threshold_figure(plot, swept, chosen)
     if json:

@@ -13,14 +13,14 @@ from onbeat.errors import OnbeatError
 def tell_card(calibrate: bool, json: bool) -> None:
     """List the inputs, or play clicks and hear them."""
     if not calibrate:
-        from onbeat.live.sound_card import inputs
+        from onbeat.live.sound.sound_card import inputs
 
         names = inputs()
         if not names:
             raise OnbeatError("the sound card has no input; plug in a microphone, or give a song to --input")
         print(json_module.dumps(names) if json else "\n".join(names))  # noqa: T201
         return
-    from onbeat.live.calibrate import calibrate as measured
+    from onbeat.live.sound.calibrate import calibrate as measured
 
     with Console(stderr=True).status(Text("clicks are played and heard")):
         found = measured()

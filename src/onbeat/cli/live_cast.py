@@ -84,7 +84,7 @@ def cast_of(settings: Settings, stages: Stages) -> Cast:
     motions, flags = [Path(path) for path in settings.motions], settings.body
     if flags.robot is not None:
         from onbeat.cli.robot import read_robot
-        from onbeat.live.robot_cast import on_robot
+        from onbeat.live.robot.cast import on_robot
 
         robot = read_robot(flags.robot)
         return on_robot(known(motions, flags, stages), robot, flags.simulate, stages)

@@ -10,17 +10,17 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from onbeat.cli.live_flags import SendFlags
+from onbeat.live.page.wire import HelloData
 from onbeat.live.protocol import VERSION, Who
-from onbeat.live.wire import HelloData
 
 if TYPE_CHECKING:
     from onbeat.cli.live_sound import Played
     from onbeat.live.cast import Cast
     from onbeat.live.hearing import Inbox
-    from onbeat.live.lines import Lines
-    from onbeat.live.outputs import Mouth, Outputs
+    from onbeat.live.mouths.lines import Lines
+    from onbeat.live.mouths.outputs import Mouth, Outputs
+    from onbeat.live.page.server import Server
     from onbeat.live.run import Runner
-    from onbeat.live.server import Server
     from onbeat.live.session import Session
 
 
@@ -62,15 +62,15 @@ def mouths_of(send: SendFlags, cast: Cast, played: Played, session: Session, inb
         out.server = _server(send, cast, played, session, inbox, out)
         out.all.append(out.server)
     if address is not None:
-        from onbeat.live.osc import Osc
+        from onbeat.live.mouths.osc import Osc
 
         out.all.append(Osc(*address))
     if send.midi_out is not None:
-        from onbeat.live.midi import ClockOut
+        from onbeat.live.mouths.midi import ClockOut
 
         out.all.append(ClockOut(send.midi_out))
     if send.lines is not None:
-        from onbeat.live.lines import Lines
+        from onbeat.live.mouths.lines import Lines
 
         out.lines = Lines(sys.stdout, send.lines)
         out.all.append(out.lines)
@@ -78,8 +78,8 @@ def mouths_of(send: SendFlags, cast: Cast, played: Played, session: Session, inb
 
 
 def _server(send: SendFlags, cast: Cast, played: Played, session: Session, inbox: Inbox, mouths: Mouths) -> Server:
-    from onbeat.live.server import Server
-    from onbeat.viewer.live_page import live_page
+    from onbeat.live.page.server import Server
+    from onbeat.viewer.pages.live import live_page
 
     def hello() -> HelloData:
         who, drawn, picker = mouths.who, cast.drawn, cast.conductor.picker
@@ -111,11 +111,11 @@ def listening(send: SendFlags, midi_in: str | None, inbox: Inbox, runner: Runner
     """Hear commands over OSC and a clock over MIDI, where these are asked for."""
     with contextlib.ExitStack() as stack:
         if send.osc_in is not None:
-            from onbeat.live.osc_in import OscIn
+            from onbeat.live.mouths.osc_in import OscIn
 
             stack.enter_context(contextlib.closing(OscIn(inbox.command, inbox.note, send.host, send.osc_in)))
         if midi_in is not None:
-            from onbeat.live.midi_in import ClockIn
+            from onbeat.live.mouths.midi_in import ClockIn
 
             stack.enter_context(contextlib.closing(ClockIn(midi_in, inbox.clocked, lambda: runner.now)))
         yield

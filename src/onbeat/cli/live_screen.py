@@ -14,7 +14,7 @@ from onbeat.live.protocol import RATE, BeatSaid, Event, Note, Status
 
 if TYPE_CHECKING:
     from onbeat.cli.live_mouths import Mouths
-    from onbeat.live.outputs import Passed
+    from onbeat.live.mouths.outputs import Passed
     from onbeat.live.run import Ran
 
 

@@ -19,11 +19,11 @@ from onbeat.cli.live_mouths import listening, mouths_of
 from onbeat.cli.live_screen import Screen, summary, words
 from onbeat.cli.live_sound import Played, source_of
 from onbeat.cli.progress import Stages
+from onbeat.live.beat.pulse import Pulse
 from onbeat.live.cast import Cast
 from onbeat.live.hearing import Hearing, Inbox
-from onbeat.live.outputs import Outputs
+from onbeat.live.mouths.outputs import Outputs
 from onbeat.live.protocol import Event, Note
-from onbeat.live.pulse import Pulse
 from onbeat.live.record import Digest, Recording, Replay
 from onbeat.live.recorded import Recorded
 from onbeat.live.run import Runner, Ticks

@@ -12,8 +12,8 @@ from onbeat.cli.live_flags import HearFlags
 from onbeat.errors import AudioError
 
 if TYPE_CHECKING:
-    from onbeat.live.http import Sound
-    from onbeat.live.listener import Listener
+    from onbeat.live.page.http import Sound
+    from onbeat.live.sound.listener import Listener
 
 MIMES = {".wav": "audio/wav", ".flac": "audio/flac", ".ogg": "audio/ogg", ".mp3": "audio/mpeg", ".m4a": "audio/mp4"}
 LARGEST = 300_000_000
@@ -43,7 +43,7 @@ class Source:
 def source_of(flags: HearFlags, clock: Callable[[], float] = time.monotonic, speed_up: float = 1.0) -> Source:
     """What the flags ask to hear."""
     if flags.input == "mic":
-        from onbeat.live.microphone import Microphone
+        from onbeat.live.sound.microphone import Microphone
 
         device = int(flags.device) if flags.device is not None and flags.device.isdecimal() else flags.device
         return Source(Microphone(device), Played("the microphone"))
@@ -54,8 +54,8 @@ def source_of(flags: HearFlags, clock: Callable[[], float] = time.monotonic, spe
 
 def _embedded(clock: Callable[[], float], speed_up: float) -> Source:
     from onbeat.examples.song import demo_song, encode
-    from onbeat.live.array_source import ArraySource
-    from onbeat.live.http import Sound
+    from onbeat.live.page.http import Sound
+    from onbeat.live.sound.array_source import ArraySource
 
     song = demo_song(EMBEDDED)
     listener = ArraySource(song.samples, song.rate, speed_up, True, clock)
@@ -63,8 +63,8 @@ def _embedded(clock: Callable[[], float], speed_up: float) -> Source:
 
 
 def _file(path: Path, loop: bool, clock: Callable[[], float], speed_up: float) -> Source:
-    from onbeat.live.file_source import FileSource
-    from onbeat.live.http import Sound
+    from onbeat.live.page.http import Sound
+    from onbeat.live.sound.file_source import FileSource
     from onbeat.music.audio import audio_duration
 
     seconds = audio_duration(path)

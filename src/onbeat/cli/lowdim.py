@@ -153,9 +153,9 @@ def _read(path: Path, flags: BeatFlags, stages: Stages, share: float) -> _Read:
 
 
 def _write(folder: Path, found: LowDimensional, told: LowdimDocument, stages: Stages, drawn: tuple[int, int]) -> None:
-    from onbeat.viewer.judge_page import write_judge_page
-    from onbeat.viewer.lowdim_figures import write_lowdim_figures
-    from onbeat.viewer.lowdim_pictures import write_lowdim_pictures
+    from onbeat.viewer.pages.judge import write_judge_page
+    from onbeat.viewer.plots.lowdim import write_lowdim_figures
+    from onbeat.viewer.plots.lowdim_pictures import write_lowdim_pictures
 
     count = len(found.motions) * len(SPACES) * found.dims
     done = 0

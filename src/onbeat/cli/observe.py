@@ -94,7 +94,7 @@ def observe_command(
         document = observe_document(found, energies, each, common, drawn, scores)
         tell_unlike([take.label for take in dance.takes], every, document.likeness)
         if output is not None:
-            from onbeat.viewer.observe_figures import write_observe_figures
+            from onbeat.viewer.plots.observe import write_observe_figures
 
             stages("drawing", 0.0)
             folder = make_folder(output)

@@ -115,7 +115,7 @@ def _print_confusion(factor: str, scored: dict[str, Any]) -> None:
 
 
 def _draw(folder: Path, factor: str, scored: dict[str, Any]) -> None:
-    from onbeat.viewer.confusion_figure import write_confusion
+    from onbeat.viewer.plots.confusion import write_confusion
 
     for kind in ("png", "svg"):
         write_confusion(folder / f"{factor}.{kind}", scored["confusion"], _title(factor, scored))

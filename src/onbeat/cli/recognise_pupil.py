@@ -163,8 +163,8 @@ def _document(found: Found, theirs: Read, mine: Read, rows: list[dict[str, Any]]
 
 
 def _write(folder: Path, found: Found, theirs: Read, mine: Read, rows: list[dict[str, Any]]) -> None:
-    from onbeat.viewer.pupil_figure import write_pupil_figure
-    from onbeat.viewer.pupil_page import write_pupil_page
+    from onbeat.viewer.pages.pupil import write_pupil_page
+    from onbeat.viewer.plots.pupil import write_pupil_figure
 
     seen, master = _beside(found, theirs, mine)
     title = f"{Path(mine.probes[0].file).stem} beside {master}"

@@ -114,6 +114,6 @@ def _write(motion: Motion, path: Path) -> None:
     if path.suffix.lower() != PAGE:
         write_motion(motion, path)
         return
-    from onbeat.viewer.page import write_page
+    from onbeat.viewer.pages.page import write_page
 
     write_page(path, motion)

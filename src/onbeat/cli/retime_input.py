@@ -20,7 +20,7 @@ from onbeat.limits.limits import Limits
 from onbeat.limits.named import robot_limits
 from onbeat.limits.read import read_limits
 from onbeat.retime.sources import Character, Robot, Source, Table, source_of
-from onbeat.robots.description_toml import described_robots
+from onbeat.robots.description.toml import described_robots
 
 MODELS = (".toml", ".urdf", ".xml", ".mjcf")
 STEADY = 0.5  # s; beats of a table of angles that has none: only the layers' knots are on them

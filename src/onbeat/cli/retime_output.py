@@ -15,10 +15,10 @@ from onbeat.music.audio import read_stereo
 from onbeat.retime.document import RetimeDocument
 from onbeat.retime.retime import Retimed
 from onbeat.retime.sources import Table
-from onbeat.viewer.limits_figure import write_limits_figure
-from onbeat.viewer.retime_curves import look_at
-from onbeat.viewer.retime_figure import write_retime_figure
-from onbeat.viewer.retime_page import write_retime_page
+from onbeat.viewer.pages.retime import write_retime_page
+from onbeat.viewer.plots.limits import write_limits_figure
+from onbeat.viewer.plots.retime import write_retime_figure
+from onbeat.viewer.plots.retime_curves import look_at
 
 DEFAULT = ".bvh"
 

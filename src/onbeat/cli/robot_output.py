@@ -23,21 +23,21 @@ from onbeat.motion.hinges import hinge_angles
 from onbeat.motion.joint_angles import JointAngles
 from onbeat.music.audio import read_stereo
 from onbeat.music.song import Song
-from onbeat.robots.contacts import sole_corners
 from onbeat.robots.document import RobotDocument
-from onbeat.robots.hrpsys import write_hrpsys
-from onbeat.robots.leg_ik import Legs
-from onbeat.robots.mcap import write_mcap
+from onbeat.robots.legs.contacts import sole_corners
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.measured import measured_margins, pressed_at
 from onbeat.robots.model import Robot
 from onbeat.robots.perform import Staged
+from onbeat.robots.sequences.hrpsys import write_hrpsys
+from onbeat.robots.sequences.mcap import write_mcap
 from onbeat.robots.state import configurations
 from onbeat.robots.trial import Trial
 from onbeat.viewer.figure import Figure
-from onbeat.viewer.flashes import Flashes
-from onbeat.viewer.page import write_filled
-from onbeat.viewer.robot_figure import Measured, write_robot_figure
-from onbeat.viewer.robot_page import robot_page_data
+from onbeat.viewer.film.flashes import Flashes
+from onbeat.viewer.pages.page import write_filled
+from onbeat.viewer.pages.robot import robot_page_data
+from onbeat.viewer.plots.robot import Measured, write_robot_figure
 from onbeat.viewer.robot_shape import ROBOT, robot_shape
 from onbeat.viewer.video import write_video
 

@@ -18,7 +18,7 @@ from onbeat.cli.progress import warnings_as_lines
 from onbeat.limits.limits import Limits
 from onbeat.limits.named import robot_limits, robot_names
 from onbeat.limits.read import read_limits
-from onbeat.robots.description_toml import described, described_robots
+from onbeat.robots.description.toml import described, described_robots
 
 VERSION = 1
 _WIDE = 160

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from onbeat.errors import FormatError
 from onbeat.formats.conventions import Up
 from onbeat.formats.gmr import gmr_motion, is_gmr
-from onbeat.formats.pickled import load_pickled_arrays
-from onbeat.formats.smpl import is_smpl, smpl_motion
+from onbeat.formats.named.pickled import load_pickled_arrays
+from onbeat.formats.smpl.read import is_smpl, smpl_motion
 from onbeat.formats.tracking import is_tracking, tracking_motion
 from onbeat.motion import Motion
 

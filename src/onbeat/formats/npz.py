@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from onbeat._shapes import Ints, Rotations
 from onbeat.errors import FormatError
 from onbeat.files import write_atomically
-from onbeat.formats.arrays import NpzArrays, floats
 from onbeat.formats.conventions import Convention, Up
 from onbeat.formats.keyed import is_keyed, keyed_motion
+from onbeat.formats.named.arrays import NpzArrays, floats
 from onbeat.motion import Motion, Skeleton
 
 VERSION = 1

@@ -7,21 +7,21 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from onbeat.errors import FormatError
+from onbeat.formats.acclaim.read import read_amc
 from onbeat.formats.angles_csv import write_angles_csv
-from onbeat.formats.asfamc import read_amc
-from onbeat.formats.bvh import read_bvh
-from onbeat.formats.bvh_write import write_bvh
-from onbeat.formats.c3d import read_c3d
-from onbeat.formats.c3d_write import write_c3d
+from onbeat.formats.bvh.read import read_bvh
+from onbeat.formats.bvh.write import write_bvh
+from onbeat.formats.c3d.read import read_c3d
+from onbeat.formats.c3d.write import write_c3d
 from onbeat.formats.conventions import Convention, Up
 from onbeat.formats.glb import write_glb
 from onbeat.formats.keyed import is_pkl, read_pkl
 from onbeat.formats.npz import is_npz, read_npz, write_npz
 from onbeat.formats.robot_csv import is_robot_csv, read_robot_csv, write_robot_csv
 from onbeat.formats.tracking import write_tracking
-from onbeat.formats.trc import read_trc
-from onbeat.formats.trc_write import write_trc
-from onbeat.formats.usd import write_usd
+from onbeat.formats.trc.read import read_trc
+from onbeat.formats.trc.write import write_trc
+from onbeat.formats.usd.write import write_usd
 from onbeat.motion import Markers, Motion
 
 

@@ -10,27 +10,27 @@ import numpy as np
 from onbeat._shapes import Ints
 from onbeat.dance.sublibrary import sublibrary
 from onbeat.errors import PlanError
-from onbeat.live.choreography import Choreography, Repertoire
+from onbeat.live.bodies.dancers import Character, Dancer
+from onbeat.live.bodies.rest import resting
+from onbeat.live.bodies.soles import Soles
+from onbeat.live.bodies.turned import Turned
+from onbeat.live.choice.choreography import Choreography, Repertoire
+from onbeat.live.choice.improvised import Improvised
+from onbeat.live.choice.improviser import Improviser
+from onbeat.live.choice.pickers import Picker
 from onbeat.live.conductor import Conductor, Rest
-from onbeat.live.dancers import Character, Dancer
-from onbeat.live.improvised import Improvised
-from onbeat.live.improviser import Improviser
-from onbeat.live.line import Line
-from onbeat.live.pickers import Picker
+from onbeat.live.growing.line import Line
 from onbeat.live.protocol import RATE, Who
-from onbeat.live.rest import resting
 from onbeat.live.session import Tried
-from onbeat.live.soles import Soles
-from onbeat.live.turned import Turned
 from onbeat.motion.kinematics import forward_kinematics
 from onbeat.motion.motion import Motion
 from onbeat.motion.retarget import grounded, retarget
-from onbeat.moves.clips import MIRROR_SUFFIX
 from onbeat.moves.library import MoveLibrary
+from onbeat.moves.making.clips import MIRROR_SUFFIX
 from onbeat.moves.poses import pose_vectors
-from onbeat.viewer.content import body_data
 from onbeat.viewer.contract import CapsuleData
 from onbeat.viewer.figure import Figure, ground_height
+from onbeat.viewer.pages.content import body_data
 
 DANCED, MOST = 110.0, 1200.0
 """Beats a minute that a part of a great library is chosen for, and its seconds: as much as is searched in time."""

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from onbeat._shapes import Times
-from onbeat.live.pickers import Choice, Picker, Piece
-from onbeat.live.pulse import Heard
-from onbeat.live.timeline import Ahead, Anchors, Timeline
+from onbeat.live.beat.pulse import Heard
+from onbeat.live.choice.pickers import Choice, Picker, Piece
+from onbeat.live.choice.timeline import Ahead, Anchors, Timeline
 
 KNOWN = 2.6
 """Seconds ahead of what is danced, up to which the timeline is to be known at least."""

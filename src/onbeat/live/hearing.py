@@ -5,10 +5,10 @@ from __future__ import annotations
 import threading
 
 from onbeat._shapes import Float32
-from onbeat.live.ears import Ears
-from onbeat.live.listener import Listener
 from onbeat.live.protocol import Clocked, Command
 from onbeat.live.session import NOTHING_TOLD, Told
+from onbeat.live.sound.ears import Ears
+from onbeat.live.sound.listener import Listener
 
 MOST = 100
 """Wishes that may wait."""

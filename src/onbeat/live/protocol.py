@@ -1,7 +1,7 @@
 """What leaves a live session: who dances, poses a hundred times a second, beats, and how things are.
 
-Every mouth (:mod:`onbeat.live.outputs`) gets these and says them its own way. Times are seconds on the session's clock,
-that of the sound: second 0 is the first sample heard. Metres, radians, Z up, quaternions wxyz.
+Every mouth (:mod:`onbeat.live.mouths.outputs`) gets these and says them its own way. Times are seconds on the session's
+clock, that of the sound: second 0 is the first sample heard. Metres, radians, Z up, quaternions wxyz.
 """
 
 from __future__ import annotations

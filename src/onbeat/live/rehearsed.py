@@ -11,10 +11,10 @@ import soxr
 from onbeat._shapes import Float32, Times, frozen
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.own import own_time
+from onbeat.live.beat.pulse import Pulse
+from onbeat.live.bodies.dancers import Character, Dancer, Machine
 from onbeat.live.cast import Cast, Known, following, improvising
-from onbeat.live.dancers import Character, Dancer, Machine
 from onbeat.live.protocol import RATE, BeatSaid, Pose, Status
-from onbeat.live.pulse import Pulse
 from onbeat.live.session import Session
 from onbeat.motion.hinges import hinge_motion
 from onbeat.motion.motion import Motion

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from onbeat._shapes import Float32
-from onbeat.live.outputs import Outputs
+from onbeat.live.mouths.outputs import Outputs
 from onbeat.live.protocol import RATE, Event, Note, Pose
 from onbeat.live.session import Session, Told
 

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from onbeat._shapes import Float32, Times
+from onbeat.live.beat.pulse import Heard, Pulse
+from onbeat.live.bodies.dancers import Dancer
 from onbeat.live.conductor import Conductor
-from onbeat.live.dancers import Dancer
 from onbeat.live.protocol import RATE, Clocked, Command, Event, Note, Pose, Status, Step
-from onbeat.live.pulse import Heard, Pulse
 from onbeat.retime.stream import Follower
 
 LUMP = 10

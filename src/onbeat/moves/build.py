@@ -8,16 +8,16 @@ from pathlib import Path
 
 from onbeat.errors import LibraryError
 from onbeat.moves.about import read_about, with_about
+from onbeat.moves.disk.index import DamagedIndexError, remove_index
+from onbeat.moves.disk.lock import building
 from onbeat.moves.engine import Engine
-from onbeat.moves.generations import Entry, Options
-from onbeat.moves.index import DamagedIndexError, remove_index
 from onbeat.moves.library import MoveLibrary
-from onbeat.moves.lock import building
-from onbeat.moves.making import Making, Step, silent
+from onbeat.moves.making.generations import Entry, Options
+from onbeat.moves.making.steps import Making, Step, silent
+from onbeat.moves.making.stock import Stock
 from onbeat.moves.methods import method_digest
 from onbeat.moves.recordings import Recording, find_recordings
 from onbeat.moves.similarity import Method
-from onbeat.moves.stock import Stock
 from onbeat.moves.store import Stored, library_of, open_library, read_stored
 
 THREADS = Engine()

@@ -15,11 +15,11 @@ import platformdirs
 from onbeat.errors import OnbeatError
 from onbeat.motion.motion import Motion
 from onbeat.moves.build import assemble, build_recordings
+from onbeat.moves.disk.lock import StorageError
 from onbeat.moves.engine import Engine
-from onbeat.moves.generations import Options
 from onbeat.moves.library import MoveLibrary
-from onbeat.moves.lock import StorageError
-from onbeat.moves.making import Step
+from onbeat.moves.making.generations import Options
+from onbeat.moves.making.steps import Step
 from onbeat.moves.methods import method_digest
 from onbeat.moves.recordings import Recording, find_recordings, motion_digest
 from onbeat.moves.store import is_library, open_library, read_stored

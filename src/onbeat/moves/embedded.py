@@ -8,7 +8,7 @@ from importlib.metadata import version
 from onbeat.examples import embedded_motions
 from onbeat.moves.cache import build_from
 from onbeat.moves.library import MoveLibrary
-from onbeat.moves.making import Step
+from onbeat.moves.making.steps import Step
 
 TROUPE = 1  # to be raised when the troupe's dances change
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from onbeat.errors import OnbeatError
-from onbeat.moves.engine_crew import Crew, EngineError, Parts
-from onbeat.moves.engine_dask import DaskCrew
-from onbeat.moves.engine_local import ThreadCrew
-from onbeat.moves.engine_processes import ProcessCrew
+from onbeat.moves.engines.crew import Crew, EngineError, Parts
+from onbeat.moves.engines.dask import DaskCrew
+from onbeat.moves.engines.local import ThreadCrew
+from onbeat.moves.engines.processes import ProcessCrew
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")

@@ -11,17 +11,17 @@ import msgspec
 from onbeat._shapes import Float32
 from onbeat.errors import LibraryError
 from onbeat.moves.build import opened_stock
+from onbeat.moves.disk.index import INDEX, reading
+from onbeat.moves.disk.lock import building
+from onbeat.moves.disk.shards import DiskShards, Span
 from onbeat.moves.engine import Engine
-from onbeat.moves.generations import Entry
-from onbeat.moves.index import INDEX, reading
 from onbeat.moves.library import MoveLibrary
-from onbeat.moves.lock import building
-from onbeat.moves.placing import Reading
-from onbeat.moves.publish import Draft, Step, publish, rising
-from onbeat.moves.shards import DiskShards, Span
-from onbeat.moves.stock import PAIR, SHARDS, Row, Stock, select_clips
+from onbeat.moves.making.generations import Entry
+from onbeat.moves.making.placing import Reading
+from onbeat.moves.making.publish import Draft, Step, publish, rising
+from onbeat.moves.making.stock import PAIR, SHARDS, Row, Stock, select_clips
+from onbeat.moves.making.twins import find_twins
 from onbeat.moves.store import Stored, is_library, open_library, read_stored
-from onbeat.moves.twins import find_twins
 
 COMPARED = 0.05  # share of a merger's time at which takes are compared
 

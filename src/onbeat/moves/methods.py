@@ -9,19 +9,15 @@ from pathlib import Path
 
 _ROOT = Path(__file__).parents[1]
 _READING = (
-    "formats/*.py",
-    "motion/*.py",
-    "keyposes/*.py",
-    *(f"moves/{name}.py" for name in ("clips", "graph", "layout", "lazy", "library", "placing", "poses", "recordings")),
+    *("formats/*.py", "formats/*/*.py", "motion/*.py", "keyposes/*.py", "moves/disk/layout.py"),
+    *(f"moves/making/{name}.py" for name in ("clips", "placing")),
+    *(f"moves/{name}.py" for name in ("graph", "lazy", "library", "poses", "recordings")),
 )
-_JOINING = tuple(
-    f"moves/{name}.py"
-    for name in (
-        *("blocks", "candidates", "caps", "cells", "coarse", "exact", "groups", "inside", "joining", "library"),
-        *("minima", "similarity", "wanted"),
-    )
+_JOINING = (
+    *("moves/pairs/*.py", "moves/similarity.py", "moves/library.py"),
+    *(f"moves/making/{name}.py" for name in ("groups", "joining")),
 )
-_REST = tuple(f"moves/{name}.py" for name in ("compose", "graph", "making", "publish", "twins"))
+_REST = ("moves/graph.py", *(f"moves/making/{name}.py" for name in ("compose", "publish", "steps", "twins")))
 
 
 @cache

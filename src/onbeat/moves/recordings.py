@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from onbeat.errors import FormatError, LibraryError
 from onbeat.fetch import Receipt, receipt_above
-from onbeat.formats.asfamc import skeleton_file
+from onbeat.formats.acclaim.read import skeleton_file
 from onbeat.formats.read import motion_files, read_motion
 from onbeat.motion.motion import Motion
 from onbeat.motion.role_file import roles_beside

@@ -17,10 +17,10 @@ from threadpoolctl import threadpool_limits
 
 from onbeat._shapes import Float32, Ints
 from onbeat.errors import LibraryError
-from onbeat.moves.blocks import NEAR, Group, Pairs, Span, group_spans
-from onbeat.moves.caps import capped, density_for
-from onbeat.moves.coarse import APPROXIMATE, COARSE, cell_pairs
-from onbeat.moves.exact import exact_pairs
+from onbeat.moves.pairs.blocks import NEAR, Group, Pairs, Span, group_spans
+from onbeat.moves.pairs.caps import capped, density_for
+from onbeat.moves.pairs.coarse import APPROXIMATE, COARSE, cell_pairs
+from onbeat.moves.pairs.exact import exact_pairs
 
 Method = Literal["exact", "coarse", "approximate"]
 SIZES: tuple[tuple[float, Method], ...] = ((150_000, "exact"), (700_000, "coarse"), (math.inf, "approximate"))

@@ -15,17 +15,17 @@ import numpy as np
 
 from onbeat._shapes import Ints
 from onbeat.errors import LibraryError
-from onbeat.moves.bodies import skeleton_of
-from onbeat.moves.clips import MIRROR_SUFFIX
-from onbeat.moves.generations import Generation, notes_of, read_generation, rows_of
+from onbeat.moves.disk.bodies import skeleton_of
+from onbeat.moves.disk.graph_files import open_graph
+from onbeat.moves.disk.index import FORMER, INDEX, reading
+from onbeat.moves.disk.layout import Label, stored_clip
+from onbeat.moves.disk.shards import DiskShards, Shards
 from onbeat.moves.graph import MotionGraph
-from onbeat.moves.graph_files import open_graph
-from onbeat.moves.index import FORMER, INDEX, reading
-from onbeat.moves.layout import Label, stored_clip
 from onbeat.moves.library import Clip, MoveLibrary
+from onbeat.moves.making.clips import MIRROR_SUFFIX
+from onbeat.moves.making.generations import Generation, notes_of, read_generation, rows_of
+from onbeat.moves.making.stock import SHARDS, Row
 from onbeat.moves.recordings import About
-from onbeat.moves.shards import DiskShards, Shards
-from onbeat.moves.stock import SHARDS, Row
 
 
 class Stored(NamedTuple):

@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 
 from onbeat.errors import LibraryError
-from onbeat.moves.graph_files import graph_digest, lead_somewhere, open_graph
-from onbeat.moves.groups import GROUP
-from onbeat.moves.index import INDEX, reading
+from onbeat.moves.disk.graph_files import graph_digest, lead_somewhere, open_graph
+from onbeat.moves.disk.index import INDEX, reading
+from onbeat.moves.disk.lock import BusyError, StorageError, building
+from onbeat.moves.disk.shards import DiskShards
 from onbeat.moves.library import REACH
-from onbeat.moves.lock import BusyError, StorageError, building
-from onbeat.moves.publish import Draft
-from onbeat.moves.shards import DiskShards
-from onbeat.moves.stock import PAIR, SHARDS, Row, block_span, select_clips
+from onbeat.moves.making.groups import GROUP
+from onbeat.moves.making.publish import Draft
+from onbeat.moves.making.stock import PAIR, SHARDS, Row, block_span, select_clips
 from onbeat.moves.store import Stored, open_library, read_stored
 
 PART = 10_000  # blocks read from the index at a time

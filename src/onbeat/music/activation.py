@@ -94,7 +94,7 @@ class CausalActivation:
 
     def push(self, bands: Float32) -> Float32:
         """Probabilities (n, 2) of a beat and a downbeat at each of the frames (n, B) of log10 power."""
-        from onbeat.music.network_stream import run  # compiled: not for those who hear whole songs
+        from onbeat.music.streaming.network import run  # compiled: not for those who hear whole songs
 
         frames = np.ascontiguousarray(_fitted(bands), dtype=np.float32)
         step: Any = run

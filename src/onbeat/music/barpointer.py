@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from onbeat._shapes import Array, Float32, Ints, Times
 from onbeat.music.activation import activation_log_odds
 from onbeat.music.bars import downbeat_log_odds, learned_downbeats, likeliest_bars
-from onbeat.music.chords import harmony_slices
 from onbeat.music.confidence import beat_confidence
+from onbeat.music.harmony.chords import harmony_slices
 from onbeat.music.heard import heard_song
 from onbeat.music.hearing import Hearing, Progress, hear
 from onbeat.music.metrical import likeliest_level, metrical_levels

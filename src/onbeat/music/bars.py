@@ -10,7 +10,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from onbeat._shapes import Array, Bools, Float32, Ints
-from onbeat.music.chords import fold_octaves
+from onbeat.music.harmony.chords import fold_octaves
 
 METERS = (2, 3, 4, 5, 6, 7)
 METER_PRIOR = (0.02, 0.12, 0.8, 0.03, 0.02, 0.01)

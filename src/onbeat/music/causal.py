@@ -16,11 +16,11 @@ import numpy as np
 from onbeat._shapes import Array, Float32, Times
 from onbeat.errors import AudioError
 from onbeat.music.activation import CausalActivation
-from onbeat.music.announcing import Announcer
-from onbeat.music.forward import ForwardFilter
-from onbeat.music.live_bars import BarCues, BarFilter
-from onbeat.music.live_features import BANDS, BandStream, OnsetStream
-from onbeat.music.presence import MOVING, Presence
+from onbeat.music.streaming.announcing import Announcer
+from onbeat.music.streaming.bars import BarCues, BarFilter
+from onbeat.music.streaming.features import BANDS, BandStream, OnsetStream
+from onbeat.music.streaming.forward import ForwardFilter
+from onbeat.music.streaming.presence import MOVING, Presence
 
 EMPTY = 0.4  # onset activation at which a moment is as likely a beat as not
 GAIN = 5.0  # log odds per unit of onset activation

@@ -11,8 +11,8 @@ import numpy as np
 from onbeat._shapes import Array, Bools, Times
 from onbeat.errors import AudioError
 from onbeat.music.beat_files import BeatList, read_beats
-from onbeat.music.chords import harmony_change
 from onbeat.music.fixes import Corrections
+from onbeat.music.harmony.chords import harmony_change
 from onbeat.music.profile import Profile
 from onbeat.music.song import Song
 from onbeat.music.table import bar_positions

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from onbeat.music.chord_names import name_chords
-from onbeat.music.chords import harmony_change
+from onbeat.music.harmony.chords import harmony_change
+from onbeat.music.harmony.key import find_key
+from onbeat.music.harmony.names import name_chords
 from onbeat.music.intensity import perceived_intensity
-from onbeat.music.key import find_key
 from onbeat.music.profile import Profile
 from onbeat.music.sections import find_sections
 from onbeat.music.song import Song

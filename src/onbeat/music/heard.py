@@ -6,7 +6,7 @@ import numpy as np
 
 from onbeat._shapes import Array, Times
 from onbeat.music.bars import find_downbeats
-from onbeat.music.chords import chord_change
+from onbeat.music.harmony.chords import chord_change
 from onbeat.music.hearing import Hearing
 from onbeat.music.intensity import intensity, normalised
 from onbeat.music.song import Song

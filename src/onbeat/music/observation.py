@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from onbeat._shapes import Array, Float32
-from onbeat.music.chords import new_harmony
+from onbeat.music.harmony.chords import new_harmony
 from onbeat.music.hearing import Hearing
 
 SOFT = 1.5  # onset strength, of root mean square 1, at which the activation is a half

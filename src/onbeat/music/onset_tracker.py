@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from onbeat._shapes import Float32
 from onbeat.music.bars import downbeat_log_odds
-from onbeat.music.chords import harmony_slices
 from onbeat.music.decode import decode_beats
+from onbeat.music.harmony.chords import harmony_slices
 from onbeat.music.heard import heard_song
 from onbeat.music.hearing import Progress, hear
 from onbeat.music.observation import harmony_at_frames, onset_log_odds, unit_power

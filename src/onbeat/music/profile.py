@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from onbeat._shapes import Array, Float32, Times
-from onbeat.music.chords import between_beats
+from onbeat.music.harmony.chords import between_beats
+from onbeat.music.harmony.pitch import FINE, fine_pitches, fold_to_semitones
 from onbeat.music.loudness import mean_square, perceptual_weighting
-from onbeat.music.pitch import FINE, fine_pitches, fold_to_semitones
 from onbeat.music.spectrum import SpectrumStream, bin_frequencies, log_bands
 
 WINDOW, HOP = 0.186, 0.05  # [s] long enough to part semitones from 110 Hz up

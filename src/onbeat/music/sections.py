@@ -9,7 +9,7 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from onbeat._shapes import Array, Float32, Ints, Times
-from onbeat.music.chords import between_beats
+from onbeat.music.harmony.chords import between_beats
 from onbeat.music.loudness import short_term_loudness
 from onbeat.music.profile import Profile
 from onbeat.music.song import Section, Song

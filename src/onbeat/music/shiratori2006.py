@@ -14,7 +14,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from onbeat._shapes import Array, Float32, Times
-from onbeat.music.chords import between_beats
+from onbeat.music.harmony.chords import between_beats
 from onbeat.music.hearing import Progress
 from onbeat.music.intensity import RATE, normalised
 from onbeat.music.song import Song

@@ -80,7 +80,7 @@ class FigureResult:
     ----------
     number : as the paper numbers it, ``Fig. 5``.
     title : what it shows.
-    svg : the drawing (:func:`onbeat.viewer.figures.figure_bytes`).
+    svg : the drawing (:func:`onbeat.viewer.plots.files.figure_bytes`).
     paper : what the paper's figure shows, told in our own words.
     ours : what is seen in this one, for those who cannot see it, too.
     remark : what agrees, what does not, and why; may be empty.

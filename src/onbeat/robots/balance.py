@@ -17,9 +17,9 @@ from onbeat.errors import BodyError
 from onbeat.motion import rotations as rot
 from onbeat.motion.motion import Motion
 from onbeat.robots.gentle import Grid
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.ik import Legs
+from onbeat.robots.legs.reach import reachable
 from onbeat.robots.model import Robot
-from onbeat.robots.reach import reachable
 from onbeat.robots.shift import Feet, Programme, State
 from onbeat.robots.state import configurations, motion_of
 
@@ -72,7 +72,7 @@ def balanced(
 
     Parameters
     ----------
-    motion : of the robot, with its feet where they are to be (:func:`onbeat.robots.legs.planted` or ``stepping``).
+    motion : of the robot, with its feet where they are to be (:func:`onbeat.robots.legs.own.planted` or ``stepping``).
     robot : the model.
     standing : (F, 2) true where the left, right foot stands flat on the floor; at least one of them.
     bound : metres of the shift along either axis; without it :data:`BOUND`, and :data:`STRIDE` where there are steps.

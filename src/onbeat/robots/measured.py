@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from onbeat._shapes import Array
-from onbeat.robots.contacts import sole_corners
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.contacts import sole_corners
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import Robot
 from onbeat.robots.polygon import Polygons
 from onbeat.robots.state import configurations

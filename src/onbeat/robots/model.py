@@ -19,12 +19,12 @@ from onbeat.motion.hinges import End, Hinge, HingeBody
 from onbeat.motion.role_file import SUFFIX, read_roles
 from onbeat.motion.roles import find_roles
 from onbeat.motion.unitree_g1 import G1
-from onbeat.robots.description import Description
-from onbeat.robots.description_toml import described, described_robots, read_description
+from onbeat.robots.description.description import Description
+from onbeat.robots.description.mjcf import FRICTION, mjcf_of
+from onbeat.robots.description.mjcf_file import read_mjcf
+from onbeat.robots.description.toml import described, described_robots, read_description
+from onbeat.robots.description.urdf import read_urdf
 from onbeat.robots.engine import engine
-from onbeat.robots.mjcf import FRICTION, mjcf_of
-from onbeat.robots.mjcf_file import read_mjcf
-from onbeat.robots.urdf import read_urdf
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ from onbeat.retime.retime import Retimed, retime
 from onbeat.retime.sources import Robot as Hinges
 from onbeat.robots.balance import Balanced, balanced
 from onbeat.robots.calm import ACCELERATION, calmed
-from onbeat.robots.legs import Danced, planted, stepping
+from onbeat.robots.legs.own import Danced, planted, stepping
 from onbeat.robots.model import Robot
 from onbeat.robots.retarget import retarget
 

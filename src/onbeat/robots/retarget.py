@@ -1,8 +1,8 @@
 """A dancer's motion as a robot's: every hinge's angle over time, within its limits, without jumps or collisions.
 
 Unlike :mod:`onbeat.motion.retarget`, which moves a motion between bodies with ball joints, this finds angles of hinges
-with limits: the robot's links are to point as the dancer's (:mod:`onbeat.robots.directions`), over the whole dance at
-once (:mod:`onbeat.robots.trajectory`), its capsules kept apart (:mod:`onbeat.robots.collision`).
+with limits: the robot's links are to point as the dancer's (:mod:`onbeat.robots.ik.directions`), over the whole dance
+at once (:mod:`onbeat.robots.ik.trajectory`), its capsules kept apart (:mod:`onbeat.robots.ik.collision`).
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from onbeat._shapes import Array, Times
 from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_motion
 from onbeat.motion.motion import Motion
-from onbeat.robots.clear import cleared
-from onbeat.robots.collision import capsules_of
-from onbeat.robots.directions import Aims, aims_of
-from onbeat.robots.ik import ROOT, tree_of
-from onbeat.robots.mend import mended
+from onbeat.robots.ik.clear import cleared
+from onbeat.robots.ik.collision import capsules_of
+from onbeat.robots.ik.directions import Aims, aims_of
+from onbeat.robots.ik.mend import mended
+from onbeat.robots.ik.trajectory import Problem, Rules, solve
+from onbeat.robots.ik.tree import ROOT, tree_of
 from onbeat.robots.model import Robot
-from onbeat.robots.trajectory import Problem, Rules, solve
 
 RATE = 60.0
 """Frames a second at which angles are found, whatever the rate of the motion."""

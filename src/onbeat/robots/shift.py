@@ -25,9 +25,9 @@ from scipy.sparse.linalg import spsolve
 
 from onbeat._shapes import Array, Bools, Positions, Rotations
 from onbeat.quadratic import minimise
-from onbeat.robots.contacts import support
 from onbeat.robots.gentle import Grid
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.contacts import support
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import Robot
 from onbeat.robots.polygon import Polygons
 from onbeat.robots.state import derivatives

@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 
 from onbeat.motion.motion import Motion
-from onbeat.robots.fall import Ground, fallen
 from onbeat.robots.model import Robot
-from onbeat.robots.reference import reference
+from onbeat.robots.simulation.fall import Ground, fallen
+from onbeat.robots.simulation.reference import reference
+from onbeat.robots.simulation.world import RATE, Options, World
 from onbeat.robots.trial import Recorder, Trial
-from onbeat.robots.world import RATE, Options, World
 
 __all__ = ["RATE", "SETTLING", "Options", "simulate"]
 

@@ -10,9 +10,9 @@ import numpy as np
 from onbeat._shapes import Array, Bools, Times, frozen
 from onbeat.motion import rotations as rot
 from onbeat.motion.motion import Motion
-from onbeat.robots.fall import Ground
 from onbeat.robots.model import Robot
-from onbeat.robots.reference import Reference
+from onbeat.robots.simulation.fall import Ground
+from onbeat.robots.simulation.reference import Reference
 from onbeat.robots.state import motion_of
 
 PRESSED = 1.0

@@ -16,7 +16,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from onbeat.live.http import welcome
+from onbeat.live.page.http import welcome
 from onbeat.studio.answers import refusal
 
 COOKIE = "onbeat_studio"

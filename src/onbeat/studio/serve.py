@@ -14,7 +14,7 @@ from pathlib import Path
 import uvicorn
 
 from onbeat.errors import OnbeatError
-from onbeat.live.http import is_loopback
+from onbeat.live.page.http import is_loopback
 from onbeat.studio.app import make_app
 from onbeat.studio.crew import COMMAND
 from onbeat.studio.studio import LARGEST, Studio

@@ -28,7 +28,7 @@ def is_skeleton(name: str) -> bool:
 
 def lacks_skeleton(path: Path) -> bool:
     """Whether a file needs a skeleton that is not beside it; one of another name that is others' is not its own."""
-    from onbeat.formats.asfamc import skeleton_file
+    from onbeat.formats.acclaim.read import skeleton_file
 
     if path.suffix.lower() != MOTION:
         return False

@@ -12,8 +12,8 @@ from onbeat.errors import OnbeatError
 from onbeat.formats.read import read_motion
 from onbeat.moves.build import build_recordings
 from onbeat.moves.engine import Engine
-from onbeat.moves.generations import Options
 from onbeat.moves.library import MoveLibrary
+from onbeat.moves.making.generations import Options
 from onbeat.moves.recordings import Recording, find_recordings
 from onbeat.studio.advice import here
 from onbeat.studio.clip_list import ClipList

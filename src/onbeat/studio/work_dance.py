@@ -25,8 +25,8 @@ from onbeat.studio.telling import Tell
 from onbeat.studio.wire import BeatsData, Mark
 from onbeat.studio.work_build import MOVES
 from onbeat.studio.work_listen import SOUND, with_name
-from onbeat.viewer.dance_page import dance_page_data
-from onbeat.viewer.graph_drawn import drawn_graph
+from onbeat.viewer.pages.dance import dance_page_data
+from onbeat.viewer.pages.graph_drawn import drawn_graph
 
 
 def danced(task: DanceTask, tell: Tell) -> Done:

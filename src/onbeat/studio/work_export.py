@@ -22,8 +22,8 @@ from onbeat.studio.stretch import stretched
 from onbeat.studio.tasks import Done, ExportTask
 from onbeat.studio.telling import Tell
 from onbeat.viewer.contract import PageData
-from onbeat.viewer.mp3 import encode, waveform
-from onbeat.viewer.page import filled
+from onbeat.viewer.pages.mp3 import encode, waveform
+from onbeat.viewer.pages.page import filled
 
 PARTS = {"writing": 1.0}
 SOUND = 48000
@@ -59,8 +59,8 @@ def _joints(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> Non
 
 
 def _mcap(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
-    from onbeat.robots.mcap import write_mcap
     from onbeat.robots.model import robot_named
+    from onbeat.robots.sequences.mcap import write_mcap
 
     write_mcap(robot_named(task.robot or ""), dance.motion, path)
 
@@ -77,7 +77,7 @@ def _page(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
 def _film(task: ExportTask, dance: StoredDance, path: Path, tell: Tell) -> None:
     import numpy as np
 
-    from onbeat.viewer.flashes import Flashes
+    from onbeat.viewer.film.flashes import Flashes
     from onbeat.viewer.video import write_video
 
     motion, figure, film = dance.motion, None, task.film

@@ -24,7 +24,7 @@ from onbeat.studio.advice import here
 from onbeat.studio.tasks import Done, LookTask, MotionSeen
 from onbeat.studio.telling import Tell
 from onbeat.studio.wire import MotionView
-from onbeat.viewer.content import page_data
+from onbeat.viewer.pages.content import page_data
 
 LONGEST = 1800.0
 """Seconds of a motion that is taken."""

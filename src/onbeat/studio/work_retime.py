@@ -30,10 +30,10 @@ from onbeat.studio.dance_folder import (
 from onbeat.studio.dance_stages import stages_of_again
 from onbeat.studio.tasks import Done, RetimeTask
 from onbeat.studio.telling import Tell
-from onbeat.viewer.content import page_data
 from onbeat.viewer.contract import GraphData, MoveData, PageData
-from onbeat.viewer.metric_words import told
-from onbeat.viewer.robot_page import robot_page_data
+from onbeat.viewer.pages.content import page_data
+from onbeat.viewer.pages.metric_words import told
+from onbeat.viewer.pages.robot import robot_page_data
 
 ON_BEAT = 0.05
 """Seconds within which a stop is on its beat."""

@@ -11,7 +11,7 @@ from onbeat._shapes import Ints
 from onbeat.errors import OnbeatError
 from onbeat.motion import Body, Motion, Skeleton
 from onbeat.motion import rotations as rot
-from onbeat.robots.collision import Capsules, capsules_of
+from onbeat.robots.ik.collision import Capsules, capsules_of
 from onbeat.robots.model import Robot
 from onbeat.viewer.figure import Colour
 from onbeat.viewer.shape import Capsule

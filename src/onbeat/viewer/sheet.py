@@ -12,11 +12,11 @@ import numpy as np
 from onbeat._shapes import Times
 from onbeat.files import write_atomically
 from onbeat.motion import Motion
-from onbeat.viewer.camera import Size, follow
 from onbeat.viewer.figure import Figure, ground_height
-from onbeat.viewer.lettering import write_text
-from onbeat.viewer.raster import render_frame
-from onbeat.viewer.stage import Stage
+from onbeat.viewer.render.camera import Size, follow
+from onbeat.viewer.render.lettering import write_text
+from onbeat.viewer.render.raster import render_frame
+from onbeat.viewer.render.stage import Stage
 
 
 def contact_sheet(motion: Motion, times: Times, columns: int = 6, size: Size = (320, 320)) -> np.ndarray:

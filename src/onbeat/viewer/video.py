@@ -17,13 +17,13 @@ from onbeat._shapes import Float32, Times
 from onbeat.errors import MissingExtraError, OnbeatError
 from onbeat.motion import Motion
 from onbeat.music.song import Song
-from onbeat.viewer.camera import Size
 from onbeat.viewer.figure import Figure
-from onbeat.viewer.flashes import Flashes
-from onbeat.viewer.in_order import in_order
-from onbeat.viewer.scene import Scene
-from onbeat.viewer.sound import SoundTrack
-from onbeat.viewer.strip import Strip, loudness
+from onbeat.viewer.film.flashes import Flashes
+from onbeat.viewer.film.in_order import in_order
+from onbeat.viewer.film.scene import Scene
+from onbeat.viewer.film.sound import SoundTrack
+from onbeat.viewer.film.strip import Strip, loudness
+from onbeat.viewer.render.camera import Size
 
 STRIP = 0.1
 """The strip's part of the picture's height."""

@@ -1,4 +1,4 @@
-// Written by `python -m onbeat.live.wire` from wire.py and protocol.py. Do not edit.
+// Written by `python -m onbeat.live.page.wire` from wire.py and protocol.py. Do not edit.
 
 export const VERSION = 1;
 

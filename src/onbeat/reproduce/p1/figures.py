@@ -13,7 +13,7 @@ from onbeat.motion.features import HandFeatures, intensity_component, keyframe_c
 from onbeat.music.song import Song
 from onbeat.reproduce.p1.dances import Danced
 from onbeat.reproduce.p1.tables import shown
-from onbeat.viewer.figures import figure_bytes, new_figure
+from onbeat.viewer.plots.files import figure_bytes, new_figure
 
 LEFT, RIGHT, STOP, MOTION, BEAT, MUSIC, SOFT = (
     "#2f6f9f", "#e0782f", "#2f5fb3", "#2f5fb3", "#c43d52", "#c43d52", "#6b7785",

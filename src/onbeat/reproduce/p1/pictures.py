@@ -12,8 +12,8 @@ from onbeat.moves.library import MoveLibrary
 from onbeat.reproduce.p1.choice import Choice
 from onbeat.reproduce.p1.dances import Danced
 from onbeat.reproduce.p1.figures import bare
-from onbeat.viewer.figures import figure_bytes, new_figure
-from onbeat.viewer.keypose_poses import pose_pictures, poses_at
+from onbeat.viewer.keypose.poses import pose_pictures, poses_at
+from onbeat.viewer.plots.files import figure_bytes, new_figure
 
 BEAT, STOP, INK, SOFT, FAINT, CHOSEN, NEAR = (
     "#c43d52", "#2f5fb3", "#22262e", "#6b7785", "#c9ced6", "#1d7f4f", "#e0a02f",

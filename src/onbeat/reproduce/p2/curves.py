@@ -9,9 +9,9 @@ import numpy as np
 
 from onbeat._shapes import Array, Times
 from onbeat.retime.retime import Retimed
-from onbeat.viewer.figures import new_figure
-from onbeat.viewer.retime_curves import Look, joint_told, look_at
-from onbeat.viewer.retime_figure import GRID, INK, LIMIT, WISH, colour_of
+from onbeat.viewer.plots.files import new_figure
+from onbeat.viewer.plots.retime import GRID, INK, LIMIT, WISH, colour_of
+from onbeat.viewer.plots.retime_curves import Look, joint_told, look_at
 
 JOINT = "L_SHOULDER_Y"
 """The left shoulder's yaw, as in the paper's Fig. 8."""

@@ -14,8 +14,8 @@ from onbeat.motion import rotations as rot
 from onbeat.motion.body import body_frames
 from onbeat.reproduce.p2.takes import Takes
 from onbeat.retime.takes import Take, rhythm_of
-from onbeat.viewer.figures import new_figure
-from onbeat.viewer.observe_figures import GRID, KEYPOSE, LOW, MIDDLE
+from onbeat.viewer.plots.files import new_figure
+from onbeat.viewer.plots.observe import GRID, KEYPOSE, LOW, MIDDLE
 
 FASTER = 1.3
 """The speed of Fig. 1."""

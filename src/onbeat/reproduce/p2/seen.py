@@ -27,8 +27,8 @@ from onbeat.reproduce.p2.observed import (
 from onbeat.reproduce.p2.takes import FEW, TAKES, Takes, real_takes, troupe_takes
 from onbeat.reproduce.p2.valleys import valley_figure
 from onbeat.reproduce.result import FigureResult, Part, Row, TableResult
-from onbeat.viewer.figures import figure_bytes
-from onbeat.viewer.observe_figures import mean_figure
+from onbeat.viewer.plots.files import figure_bytes
+from onbeat.viewer.plots.observe import mean_figure
 
 FEW_DANCERS = 2
 """That are observed for a first look."""

@@ -15,9 +15,9 @@ from onbeat.motion import Motion
 from onbeat.reproduce.p2.methods import OURS, PUBLISHED
 from onbeat.reproduce.p2.takes import Solo
 from onbeat.retime.lock import TimeMap
-from onbeat.robots.contacts import sole_corners
 from onbeat.robots.document import RobotDocument, robot_document
-from onbeat.robots.leg_ik import Legs
+from onbeat.robots.legs.contacts import sole_corners
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.model import Robot
 from onbeat.robots.perform import Feet, Staged, stage
 from onbeat.robots.polygon import Polygons

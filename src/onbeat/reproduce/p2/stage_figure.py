@@ -15,9 +15,9 @@ from onbeat.reproduce.p2.stage import Danced, margins
 from onbeat.reproduce.p2.takes import Solo
 from onbeat.robots.model import Robot
 from onbeat.viewer.figure import Figure, ground_height
-from onbeat.viewer.figures import new_figure
-from onbeat.viewer.keypose_poses import Poses, pose_pictures, poses_at
-from onbeat.viewer.retime_figure import GRID, LIMIT, colour_of
+from onbeat.viewer.keypose.poses import Poses, pose_pictures, poses_at
+from onbeat.viewer.plots.files import new_figure
+from onbeat.viewer.plots.retime import GRID, LIMIT, colour_of
 from onbeat.viewer.robot_shape import ROBOT, robot_shape
 
 PICTURE = (140, 205)

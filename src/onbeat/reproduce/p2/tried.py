@@ -31,8 +31,8 @@ from onbeat.reproduce.result import FigureResult, Part, Row, TableResult
 from onbeat.retime.measures import Measures
 from onbeat.robots.model import Robot, robot_named
 from onbeat.robots.perform import Feet
-from onbeat.viewer.figures import figure_bytes
-from onbeat.viewer.retime_figure import retime_figure
+from onbeat.viewer.plots.files import figure_bytes
+from onbeat.viewer.plots.retime import retime_figure
 
 WISHES = MappingProxyType({True: "as captured", False: "as planned"})
 """How the angles are found that are wished: with no thought of the hinges' speeds, or with a price on them."""

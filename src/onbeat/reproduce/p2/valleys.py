@@ -10,9 +10,9 @@ from onbeat._shapes import Array
 from onbeat.reproduce.p2.observed import Observed
 from onbeat.retime.observe import Curves
 from onbeat.retime.takes import rhythm_of
-from onbeat.viewer.figures import new_figure
-from onbeat.viewer.keypose_poses import pose_pictures, poses_at
-from onbeat.viewer.observe_figures import GRID, INK, KEYPOSE, TOGETHER, speed_colours
+from onbeat.viewer.keypose.poses import pose_pictures, poses_at
+from onbeat.viewer.plots.files import new_figure
+from onbeat.viewer.plots.observe import GRID, INK, KEYPOSE, TOGETHER, speed_colours
 
 PICTURE = (140, 240)
 """Pixels of a posture."""

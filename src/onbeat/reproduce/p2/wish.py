@@ -20,13 +20,13 @@ from onbeat.motion.joint_angles import JointAngles
 from onbeat.reproduce.p2.takes import Solo
 from onbeat.retime.sources import Table
 from onbeat.retime.upper_body import above_the_legs
-from onbeat.robots.collision import Capsules
-from onbeat.robots.directions import aims_of
 from onbeat.robots.engine import engine
-from onbeat.robots.ik import ROOT, tree_of
+from onbeat.robots.ik.collision import Capsules
+from onbeat.robots.ik.directions import aims_of
+from onbeat.robots.ik.trajectory import Problem, solve
+from onbeat.robots.ik.tree import ROOT, tree_of
 from onbeat.robots.model import Robot
 from onbeat.robots.retarget import RATE, retarget, rules_of
-from onbeat.robots.trajectory import Problem, solve
 
 UNBOUND = 1e3
 """rad/s, faster than any hinge of any robot."""

@@ -13,8 +13,8 @@ from onbeat.keyposes.extract import PAPER, Keyposes, Options, Reading
 from onbeat.reproduce.p3.dances import Danced
 from onbeat.reproduce.p3.extraction import LEARNED
 from onbeat.reproduce.result import Claim, FigureResult
-from onbeat.viewer.figures import figure_bytes, new_figure
-from onbeat.viewer.keypose_poses import pose_pictures, poses_at
+from onbeat.viewer.keypose.poses import pose_pictures, poses_at
+from onbeat.viewer.plots.files import figure_bytes, new_figure
 
 WORLD, BODY, CANDIDATE, KEYPOSE, BEAT = "#1f3f77", "#c2621c", "#aab2bf", "#22262e", "#7d8796"
 PICTURE = (150, 190)

@@ -11,9 +11,9 @@ from onbeat.keyposes.judging import SPACES
 from onbeat.keyposes.lowdim import LowDimensional, people_told
 from onbeat.reproduce.p3.lowdim import PHASES, Spaces, grouped
 from onbeat.reproduce.result import FigureResult, Row, TableResult
-from onbeat.viewer.figures import figure_bytes, new_figure
-from onbeat.viewer.lowdim_figures import cluster_figure, error_figure, trajectory_figure, variance_figure
-from onbeat.viewer.lowdim_pictures import dimensions_picture, most_different, posture_picture, telling_frame
+from onbeat.viewer.plots.files import figure_bytes, new_figure
+from onbeat.viewer.plots.lowdim import cluster_figure, error_figure, trajectory_figure, variance_figure
+from onbeat.viewer.plots.lowdim_pictures import dimensions_picture, most_different, posture_picture, telling_frame
 
 PERSON = 4
 """Person five of the paper's Figs. 9 and 10: the fifth, counted from 0."""

@@ -14,7 +14,7 @@ from onbeat.keyposes.extract import Reading
 from onbeat.reproduce.p3.dances import Danced
 from onbeat.reproduce.p3.extraction import LEARNED, beat_score, inside, learned
 from onbeat.reproduce.result import Claim, FigureResult
-from onbeat.viewer.figures import figure_bytes, new_figure
+from onbeat.viewer.plots.files import figure_bytes, new_figure
 
 VALUES = np.concatenate((np.arange(0.0, 2.0, 0.1), np.arange(2.0, 10.01, 0.5)))
 """Of the threshold that is varied, in units of the mean energy; the paper's range, finer where something happens."""

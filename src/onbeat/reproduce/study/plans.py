@@ -14,7 +14,7 @@ import numpy as np
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.judging import SPACES, Trial
 from onbeat.keyposes.lowdim import LowDimensional
-from onbeat.viewer.judge_page import judge_page
+from onbeat.viewer.pages.judge import judge_page
 
 PAGE, ANSWERS = "study.html", "answers"
 """The study's page, and beside it the folder of the answers."""

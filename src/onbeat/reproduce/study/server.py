@@ -28,7 +28,7 @@ from starlette.routing import Route
 from onbeat.errors import OnbeatError
 from onbeat.files import make_folder, write_atomically
 from onbeat.keyposes.judging import Trial
-from onbeat.live.http import is_loopback, welcome
+from onbeat.live.page.http import is_loopback, welcome
 from onbeat.reproduce.study.answers import PersonAnswers, StudyDocument
 from onbeat.reproduce.study.plans import ANSWERS, PAGE
 

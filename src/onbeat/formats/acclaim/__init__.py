@@ -1,0 +1,1 @@
+"""Acclaim ASF and AMC, as CMU's files have them."""

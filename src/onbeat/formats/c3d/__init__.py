@@ -1,0 +1,1 @@
+"""C3D: labelled points of optical motion capture."""

@@ -1,0 +1,1 @@
+"""Named arrays out of files of others, read without ever executing anything in them."""

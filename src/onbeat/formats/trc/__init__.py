@@ -1,0 +1,1 @@
+"""TRC: marker positions as a table of text."""

@@ -1,0 +1,1 @@
+"""Bodies that dance live: how they stand, how they rest, and how channels become poses."""

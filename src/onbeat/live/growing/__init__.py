@@ -1,0 +1,1 @@
+"""A dance that grows at its end while it is danced: joins blended, feet planted."""

@@ -1,0 +1,1 @@
+"""To whom a session speaks, and what others tell it: OSC, MIDI, lines of text."""

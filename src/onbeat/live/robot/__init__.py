@@ -1,0 +1,1 @@
+"""Robots that dance live: dances prepared, gone over into each other, simulated."""

@@ -1,0 +1,1 @@
+"""Where the tasks of a build are done: threads, processes, a cluster."""

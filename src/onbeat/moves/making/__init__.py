@@ -1,0 +1,1 @@
+"""Making a library: clips from recordings, twins sorted out, joins, a new generation published."""

@@ -1,0 +1,1 @@
+"""Close pairs of frames: blocks of the table of distances, exact or coarse to fine."""

@@ -1,0 +1,1 @@
+"""Harmony: chords and their changes, keys, tones."""

@@ -1,0 +1,1 @@
+"""Beats as sound streams by: the parts of the causal tracker."""

@@ -1,0 +1,1 @@
+"""Inverse kinematics of a whole dance: directions wanted, collisions kept away from, solved over all frames."""

@@ -1,0 +1,1 @@
+"""Dances as files that robots' controllers play."""

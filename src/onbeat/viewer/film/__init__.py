@@ -1,0 +1,1 @@
+"""What a film needs besides the dancer: scene, strip, flashes, planes of colour, coded sound."""

@@ -1,0 +1,1 @@
+"""A sheet of a dance's keyposes: rows like lines of music, and pictures of the poses."""
