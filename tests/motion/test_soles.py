@@ -86,12 +86,24 @@ def test_feet_move_smoothly_through_the_floor():
     path = forward_kinematics(SKELETON, on_soles(BODY, poses, roots), roots)[1][:, tip]
     steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
     free = np.linalg.norm(np.diff(forward_kinematics(SKELETON, poses, roots)[1][:, tip], axis=0), axis=1)
-    assert steps.max() <= free.max() * 1.01
-    assert np.abs(np.diff(steps)).max() < 0.05 * free.max()
+    assert steps.max() <= 3.0 * free.max()  # towards straight down the foot is lifted instead
+    assert np.abs(np.diff(steps)).max() < 0.1 * free.max()
+
+
+def test_toes_that_pass_straight_down_do_not_flip():
+    turns = np.linspace(1.2, 1.95, 400)
+    poses = np.concatenate([posed(LeftToeBase=-angle) for angle in turns])
+    roots = np.tile([0.0, 0.0, FLOOR], (400, 1))
+    out = on_soles(BODY, poses, roots)
+    world, places = forward_kinematics(SKELETON, out, roots)
+    toes, tip = (SKELETON.names.index(name) for name in ("LeftToeBase", "LeftToeEnd"))
+    steps = 2.0 * np.arccos(np.clip(np.abs(np.sum(world[1:, toes] * world[:-1, toes], axis=1)), 0.0, 1.0))
+    assert steps.max() < 8.0 * np.diff(turns).max()
+    assert places[:, tip, 2].min() >= -DEEPEST
 
 
 @pytest.mark.parametrize("angle", [-1.35, -1.5707963267948966, -1.8])
-def test_toes_that_point_straight_down_are_bent_forward_and_up(angle: float):
+def test_toes_that_point_straight_down_come_out_of_the_floor(angle: float):
     pose = posed(LeftToeBase=angle)
     out = on_soles(BODY, pose, np.array([[0.0, 0.0, FLOOR - 0.03]]))
     assert np.linalg.norm(out, axis=-1) == pytest.approx(np.ones(out.shape[:2]))

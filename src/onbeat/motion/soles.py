@@ -20,6 +20,8 @@ from onbeat.motion.tree import Tree
 
 FREE, DEEPEST = 0.015, 0.025
 """Metres under the floor up to which joints stay where they are, and to which they never come."""
+DOWN, SIDEWAYS = np.radians(3.0), np.radians(30.0)
+"""Radians from straight down up to which toes are not turned, and from which on they are turned as far as they need."""
 SHORTEST = 1e-6
 """Metres; what is shorter has no direction."""
 
@@ -42,7 +44,8 @@ def pressed(heights: Array) -> Array:
 def on_soles(body: Body, rotations: Rotations, roots: Positions) -> Rotations:
     """Local rotations (F, J, 4) of the same poses with feet that do not sink into the floor at z = 0.
 
-    A foot that is too deep as a whole is lifted, the leg bending; toes that are deeper than their ball are bent up.
+    A foot that is too deep as a whole is lifted, the leg bending; toes that are deeper than their ball are bent up, or
+    lifted with it where they point straight down.
 
     Parameters
     ----------
@@ -71,15 +74,14 @@ def on_soles(body: Body, rotations: Rotations, roots: Positions) -> Rotations:
             out = out.copy() if out is rotations else out
             out[frames] = _lifted(body, side, out[frames], roots[frames])
             if ball != body[f"{side}_ankle"]:
-                out[frames] = _bent_up(skeleton, ball, out[frames], roots[frames])
+                out[frames] = _bent_up(body, side, out[frames], roots[frames])
     return out
 
 
-def _across(toes: Positions, foot: Positions) -> Positions:
-    """(N, 3) level axes about which toes turn up: across them, across the foot where they point straight down."""
-    ahead = np.array([0.0, 1.0, 0.0])
-    for way in (foot, toes):
-        ahead = np.where(np.hypot(way[:, 0], way[:, 1])[:, None] > SHORTEST, way, ahead)
+def _across(way: Positions) -> Positions:
+    """(N, 3) level axes about which what points that way turns up; what points straight down has none, and gets one."""
+    level = np.hypot(way[:, 0], way[:, 1])[:, None]
+    ahead = np.where(level > SHORTEST, way, [0.0, 1.0, 0.0])
     across = np.stack([ahead[:, 1], -ahead[:, 0], np.zeros(len(ahead))], axis=1)
     return across / np.linalg.norm(across, axis=1, keepdims=True)
 
@@ -107,8 +109,13 @@ def _lifted(body: Body, side: str, rotations: Rotations, roots: Positions) -> Ro
     return place_foot(body, side, rotations, world, target, world[0][:, ankle])
 
 
-def _bent_up(skeleton: Skeleton, ball: int, rotations: Rotations, roots: Positions) -> Rotations:
-    """The toes turned about the ball, up to where their tips are no longer too deep."""
+def _bent_up(body: Body, side: str, rotations: Rotations, roots: Positions) -> Rotations:
+    """The toes turned up about their ball, to where their tips are no longer too deep.
+
+    They are turned in the upright plane that they are in. Toes near straight down are in none, or in another the next
+    moment: the nearer, the less they are turned, and the foot is lifted by what is left.
+    """
+    skeleton, ball = body.skeleton, _ball(body, side)
     tips = _below(skeleton, ball)[1:]
     if not len(tips):
         return rotations
@@ -116,12 +123,33 @@ def _bent_up(skeleton: Skeleton, ball: int, rotations: Rotations, roots: Positio
     rows = np.arange(len(rotations))
     deep = places[:, tips][rows, places[:, tips, 2].argmin(axis=1)]
     arm = deep - places[:, ball]
-    length = np.linalg.norm(arm, axis=1)
-    bends, length = length > SHORTEST, np.maximum(length, SHORTEST)
+    length = np.maximum(np.linalg.norm(arm, axis=1), SHORTEST)
+    now = np.arcsin(np.clip(arm[:, 2] / length, -1.0, 1.0))
     wanted = np.arcsin(np.clip((pressed(deep[:, 2]) - places[:, ball, 2]) / length, -1.0, 1.0))
-    angle = np.where(bends, np.maximum(wanted - np.arcsin(np.clip(arm[:, 2] / length, -1.0, 1.0)), 0.0), 0.0)
-    foot = places[:, ball] - places[:, skeleton.parents[ball]]
-    turned = rot.multiply(rot.about(_across(arm, foot), angle), turns[:, ball])
+    angle = _away(now + np.pi / 2) * np.maximum(wanted - now, 0.0)
+    out, foot = rotations.copy(), skeleton.parents[ball]
+    turned = rot.multiply(rot.about(_across(arm), angle), turns[:, ball])
+    out[:, ball] = rot.multiply(rot.inverse(turns[:, foot]), turned)
+    return _freed(body, side, out, roots, pressed(places[:, tips, 2].min(axis=1)))
+
+
+def _away(angle: Array) -> Array:
+    """From 0 straight down to 1 from ``SIDEWAYS`` on, smoothly."""
+    part = np.clip((angle - DOWN) / (SIDEWAYS - DOWN), 0.0, 1.0)
+    return part * part * (3.0 - 2.0 * part)
+
+
+def _freed(body: Body, side: str, rotations: Rotations, roots: Positions, lowest: Array) -> Rotations:
+    """The foot lifted to where its toes' tips are as high as ``lowest`` (N,) metres; as it is where they are."""
+    ankle, ball = body[f"{side}_ankle"], _ball(body, side)
+    world = forward_kinematics(body.skeleton, rotations, roots)
+    missing = lowest - world[1][:, _below(body.skeleton, ball)[1:], 2].min(axis=1)
+    some = np.flatnonzero(missing > SHORTEST)
+    if not len(some):
+        return rotations
+    turns, places = (values[some] for values in world)
+    target = places[:, ankle].copy()
+    target[:, 2] += missing[some]
     out = rotations.copy()
-    out[:, ball] = rot.multiply(rot.inverse(turns[:, skeleton.parents[ball]]), turned)
+    out[some] = place_foot(body, side, rotations[some], (turns, places), target, turns[:, ankle])
     return out
