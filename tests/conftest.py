@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from onbeat.examples.body import Build
+from onbeat.files import lock_file
 from onbeat.motion import Motion
 from onbeat.motion import rotations as rot
 from onbeat.moves.embedded import embedded_library
@@ -26,19 +30,48 @@ def data() -> Path:
     return folder
 
 
+class Kept(NamedTuple):
+    """A folder where libraries are kept, and the troupe's, which is there."""
+
+    folder: Path
+    troupe: MoveLibrary
+
+
+@contextmanager
+def one_at_a_time(path: Path) -> Iterator[None]:
+    """Wait for the other workers of this run that are at it."""
+    with path.open("a") as file:
+        while True:
+            try:
+                lock_file(file.fileno())
+                break
+            except OSError:
+                time.sleep(0.05)
+        yield
+
+
 @pytest.fixture(scope="session")
-def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """A folder of this session's own where libraries are kept, so that the user's is neither read nor filled."""
+def kept() -> Iterator[Kept]:
+    """Where all workers of this run keep libraries: the first one makes the troupe's, the others open it."""
+    folder = Path(os.environ["ONBEAT_CACHE"]) / "kept"
+    folder.mkdir(parents=True, exist_ok=True)
     with pytest.MonkeyPatch.context() as patch:
-        folder = tmp_path_factory.mktemp("cache")
         patch.setenv("ONBEAT_CACHE", str(folder))
-        yield folder
+        with one_at_a_time(folder / "troupe.lock"):
+            troupe = embedded_library()
+        yield Kept(folder, troupe)
 
 
 @pytest.fixture(scope="session")
-def troupe(cache: Path) -> MoveLibrary:
+def cache(kept: Kept) -> Path:
+    """A folder of this run's own where libraries are kept, so that the user's is neither read nor filled."""
+    return kept.folder
+
+
+@pytest.fixture(scope="session")
+def troupe(kept: Kept) -> MoveLibrary:
     """The moves of the embedded troupe."""
-    return embedded_library()
+    return kept.troupe
 
 
 @pytest.fixture(scope="session")

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from onbeat.formats.usd import joint_paths
+from onbeat.formats.usd.write import joint_paths
 from onbeat.motion import Motion
 
 INSIDE = Path(__file__).with_name("inside_blender.py")
@@ -55,7 +55,7 @@ def open_in_blender(wanted: Sequence[Wanted], folder: Path) -> dict[str, Seen]:
     jobs = folder / "jobs.json"
     jobs.write_text(json.dumps([_job(each) for each in wanted]))
     words = [blender() or "blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", str(INSIDE)]
-    run = subprocess.run([*words, "--", str(jobs)], capture_output=True, text=True, timeout=300, check=False)
+    run = subprocess.run([*words, "--", str(jobs)], capture_output=True, text=True, timeout=900, check=False)
     if run.returncode:
         raise RuntimeError(f"Blender could not read what was written:\n{(run.stdout + run.stderr)[-3000:]}")
     found = [json.loads(line[5:]) for line in run.stdout.splitlines() if line.startswith("SEEN ")]

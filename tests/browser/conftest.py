@@ -28,6 +28,7 @@ class OpenPage:
         self.page = page
         self.complaints: list[str] = []
         self.requests: list[str] = []
+        page.set_default_timeout(120_000)
         page.on("console", lambda message: self.complaints.append(f"{message.type}: {message.text}"))
         page.on("pageerror", lambda error: self.complaints.append(f"exception: {error}"))
         page.on("request", lambda request: self.requests.append(request.url))
@@ -40,7 +41,7 @@ class OpenPage:
     def until(self, condition: str) -> None:
         """Wait until a JavaScript condition holds; the page forbids the strings of ``wait_for_function``."""
         look = f"const look = () => ({condition}) ? done() : requestAnimationFrame(look); look();"
-        late = "setTimeout(() => fail(new Error('waited 20 s in vain')), 20000);"
+        late = "setTimeout(() => fail(new Error('waited 120 s in vain')), 120000);"
         self.page.evaluate(f"new Promise((done, fail) => {{ {look} {late} }})")
 
     def posed(self, time: float) -> dict[str, Any]:
