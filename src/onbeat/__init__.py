@@ -139,8 +139,8 @@ _ROOMS = {
     "robots.on_robot": ("dance_on_robot",),
     "robots.perform": ("Staged",),
     "robots.simulate": ("simulate",),
-    "viewer.dance_page": ("write_dance_page",),
-    "viewer.page": ("write_page",),
+    "viewer.pages.dance": ("write_dance_page",),
+    "viewer.pages.page": ("write_page",),
     "viewer.sheet": ("contact_sheet",),
     "viewer.video": ("write_video",),
 }
