@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from onbeat.cli.robot import read_robot
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.dances import perform_dance
 from onbeat.formats import read_motion, write_motion
 from onbeat.motion.unitree_g1 import G1
+from onbeat.robots.model import robot_named
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -75,3 +78,9 @@ def test_what_cannot_be_is_told_in_a_line(onbeat: Run, folder: Path, words: list
     assert said in err
     assert "Traceback" not in err
     assert not (folder / "nothing").exists()
+
+
+def test_a_robot_comes_from_a_file_of_ours_as_well(tmp_path: Path) -> None:
+    text = (files("onbeat.robots") / "descriptions" / "talos.toml").read_text(encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
+    assert read_robot(str(tmp_path / "mine.toml")).body.names == robot_named("talos").body.names

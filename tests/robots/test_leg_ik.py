@@ -80,3 +80,19 @@ def test_a_foot_with_too_few_hinges_is_told():
     stump = replace(G1.feet["left"], link="left_knee_link")
     with pytest.raises(BodyError, match="hinges lead to left_knee_link"):
         Leg.of(replace(G1, feet={"left": stump}), "left")
+
+
+def test_hinges_that_both_legs_hang_on_are_told():
+    both = replace(
+        G1,
+        feet=dict.fromkeys(("left", "right"), G1.feet["left"]),
+        roles={**G1.roles, "right_knee": G1.roles["left_knee"]},
+    )
+    with pytest.raises(BodyError, match="left_ankle_roll_joint are between its root, pelvis, and both its legs"):
+        Legs.of(both)
+
+
+def test_a_leg_whose_knee_is_not_known_is_told_with_what_to_do():
+    roles = {role: joint for role, joint in G1.roles.items() if role != "left_knee"}
+    with pytest.raises(BodyError, match=r'left knee is not known.*g1\.roles\.toml.*left_knee = "left_knee_joint"'):
+        Leg.of(replace(G1, roles=roles), "left")

@@ -11,6 +11,7 @@ import pytest
 
 from onbeat.errors import BodyError, OnbeatError
 from onbeat.motion import rotations as rot
+from onbeat.robots.description.description import AssumedWarning
 from onbeat.robots.engine import engine
 from onbeat.robots.model import Robot, robot_from, robot_named
 
@@ -117,3 +118,30 @@ def test_an_empty_world_and_another_xml_are_told(tmp_path: Path):
         read("<mujoco/>", tmp_path)
     with pytest.raises(BodyError, match="<robot> found"):
         read("<robot/>", tmp_path)
+
+
+MESHES = """<asset><mesh name="shin" file="shin.stl"/><mesh file="skull.obj"/></asset><worldbody>"""
+
+
+@pytest.mark.filterwarnings("ignore:.*no speed is told for")
+def test_meshes_that_are_not_there_are_left_out_and_told(tmp_path: Path):
+    text = ROBOT.replace("<worldbody>", MESHES).replace(
+        '<geom size="0.1" mass="3"/>', '<geom size="0.1" mass="3"/><geom type="mesh" mesh="skull" density="0"/>'
+    )
+    text = text.replace("<asset>", '<compiler meshdir="parts"/><asset>')
+    (tmp_path / "walker.xml").write_text(text)
+    with pytest.warns(AssumedWarning, match=r"2 meshes are not where it says \(parts.shin\.stl") as told:
+        robot = robot_from(tmp_path / "walker.xml")
+    assert len(told) == 2
+    whole = read(ROBOT, tmp_path)
+    assert robot.body.names == whole.body.names
+    assert robot.mass == pytest.approx(whole.mass)
+    np.testing.assert_allclose(robot.feet["left"].corners, whole.feet["left"].corners)
+
+
+def test_a_link_that_weighs_only_what_a_missing_mesh_does_is_told(tmp_path: Path):
+    text = ROBOT.replace("<worldbody>", MESHES).replace(
+        '<geom size="0.1" mass="3"/>', '<geom type="mesh" mesh="skull" mass="3"/>'
+    )
+    with pytest.raises(BodyError, match=r"cannot read it without the 2 meshes that are not where it says.*mass"):
+        read(text, tmp_path)

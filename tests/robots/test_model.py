@@ -282,6 +282,7 @@ def test_a_public_file_makes_the_robot_that_is_packaged(data: Path):
         assert set(packaged.roles) - set(robot.roles) <= {"head", "neck", "spine"}
 
 
+@pytest.mark.filterwarnings("ignore:.*its structure tells which joint is what")
 @pytest.mark.parametrize(
     ("file", "hinges"),
     [

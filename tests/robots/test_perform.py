@@ -10,6 +10,7 @@ import pytest
 from onbeat.errors import BodyError, PlanError
 from onbeat.examples.dancers import DANCERS
 from onbeat.examples.dances import perform_dance
+from onbeat.motion import rotations as rot
 from onbeat.motion.hinges import hinge_angles
 from onbeat.retime.lock import TimeMap
 from onbeat.robots.document import robot_document
@@ -18,6 +19,7 @@ from onbeat.robots.model import robot_named
 from onbeat.robots.perform import Staged, is_of, limits_of, stage
 from onbeat.robots.simulate import Options, simulate
 from onbeat.robots.state import configurations
+from onbeat.robots.upright import LyingWarning
 
 G1 = robot_named("g1")
 
@@ -72,3 +74,13 @@ def test_a_robot_of_another_body_is_no_own_motion_but_is_retargeted_from():
 def test_a_dance_that_has_no_time_is_refused():
     with pytest.raises((PlanError, BodyError)):
         stage(danced().motion, G1, TimeMap.steady(1.0, at=99.0), np.arange(0, 5, 0.5), np.zeros(0))
+
+
+def test_a_dancer_who_lies_is_told_of():
+    clip = perform_dance(DANCERS[0], "river dance", 1.0, 1, np.random.default_rng(0), fps=30)
+    down = rot.about(np.array([1.0, 0.0, 0.0]), np.array(-np.pi / 2))
+    turns = clip.motion.rotations[:30].copy()
+    turns[:, 0] = rot.multiply(down, turns[:, 0])
+    lying = clip.motion[:30].replace(rotations=turns)
+    with pytest.warns(LyingWarning, match="from upright 100% of the time"):
+        stage(lying, G1, TimeMap.steady(1.0), np.array([0.2, 0.7]), np.array([0.2]))

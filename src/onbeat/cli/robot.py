@@ -27,7 +27,7 @@ from onbeat.robots.simulate import Options, simulate
 from onbeat.robots.trial import Trial
 
 Flag = Annotated[bool, cyclopts.Parameter(negative=())]
-FILES = (".urdf", ".xml", ".mjcf")
+FILES = (".urdf", ".xml", ".mjcf", ".toml")
 
 
 @cyclopts.Parameter(name="*")
@@ -81,7 +81,7 @@ def robot_command(
     motion
         The dance: any motion file, or one of the robot itself.
     robot
-        g1, hrp4c or talos, or a file: URDF or MJCF.
+        g1, hrp4c or talos, or a file: URDF, MJCF, or TOML as docs/robot.md has it.
     time
         The time that it is to be in; its own without --speed and --music.
     own

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
@@ -15,11 +16,14 @@ import msgspec
 
 from onbeat._shapes import Array, Positions, frozen
 from onbeat.errors import BodyError, FormatError
+from onbeat.motion.body import NEEDED, Body
 from onbeat.motion.hinges import End, Hinge, HingeBody
+from onbeat.motion.retarget import stands_in_rest
 from onbeat.motion.role_file import SUFFIX, read_roles
 from onbeat.motion.roles import find_roles
 from onbeat.motion.unitree_g1 import G1
-from onbeat.robots.description.description import Description
+from onbeat.robots.description.description import AssumedWarning, Description, Point, vector
+from onbeat.robots.description.limbs import Limbs, limbs_of
 from onbeat.robots.description.mjcf import FRICTION, mjcf_of
 from onbeat.robots.description.mjcf_file import read_mjcf
 from onbeat.robots.description.toml import described, described_robots, read_description
@@ -49,6 +53,7 @@ class Robot:
     feet : "left" and "right".
     roles : the hinge, the root or the end that plays each role.
     source : where the figures are from.
+    unclear : why its structure does not tell which joints are arms and legs; empty where it does.
 
     Examples
     --------
@@ -64,6 +69,7 @@ class Robot:
     feet: Mapping[str, Foot]
     roles: Mapping[str, str]
     source: str
+    unclear: str = ""
 
     @cached_property
     def model(self) -> Any:
@@ -107,8 +113,9 @@ def _packaged(name: str, friction: float) -> Robot:
 def robot_from(path: str | os.PathLike[str], friction: float = FRICTION) -> Robot:
     """The humanoid of a file: a URDF (``.urdf``), an MJCF (``.xml``), or a description as onbeat has it (``.toml``).
 
-    What is assumed of it (soles, speeds, torques that are not told, meshes that are not there) is a warning. Where
-    names do not tell which joint plays which role, ``NAME.roles.toml`` beside it does.
+    What is assumed of it (soles, speeds, torques that are not told, meshes that are not there) is a warning. Which
+    joint plays which role its structure tells, whatever they are called; where it does not, ``NAME.roles.toml`` beside
+    it does.
 
     Raises
     ------
@@ -142,7 +149,7 @@ def robot_of(name: str, description: Description, friction: float = FRICTION) ->
     """
     if not (math.isfinite(friction) and friction > 0):
         raise BodyError(f"soles with a friction of {friction:g} stand nowhere; a number above zero is expected")
-    body = _body(description)
+    body, limbs = _understood(name, description)
     names = body.skeleton.names
     roles = {role: names[joint] for role, joint in find_roles(body.skeleton).joints.items()}
     feet = {side: Foot(sole.link, frozen(sole.corners)) for side, sole in description.feet.items()}
@@ -155,10 +162,61 @@ def robot_of(name: str, description: Description, friction: float = FRICTION) ->
         MappingProxyType(feet),
         MappingProxyType(roles),
         source,
+        limbs.unclear,
     )
 
 
-def _body(description: Description) -> HingeBody:
+def body_of(robot: Robot) -> Body:
+    """The roles of a robot's joints; a ``BodyError`` that tells what is missing where it cannot dance with them."""
+    skeleton, file = robot.body.skeleton, f"{robot.name}{SUFFIX}"
+    missing = [role for role in NEEDED if role not in robot.roles]
+    how = f'{file} beside its file can tell them: [joints] and lines like {(missing or NEEDED)[0]} = "joint"'
+    if missing:
+        why = f" ({robot.unclear})" if robot.unclear else ""
+        joints = ", ".join((skeleton.names[0], *robot.body.names))
+        raise BodyError(
+            f"{robot.name}: neither its structure{why} nor names tell its {', '.join(missing)}; {how}; "
+            f"its joints are {joints}"
+        )
+    body = Body.of(skeleton)
+    if not stands_in_rest(body):
+        told = ", ".join(f"{role} {robot.roles[role]}" for role in NEEDED)
+        raise BodyError(f"{robot.name} does not stand where all its angles are zero, taken as {told}; {how}")
+    return body
+
+
+def _understood(name: str, description: Description) -> tuple[HingeBody, Limbs]:
+    """The body with its roles: those that are told, and those of the structure where names say otherwise or nothing."""
+    body, joint = _body(description)
+    limbs = limbs_of(body, {side: joint[sole.link] for side, sole in description.feet.items()})
+    named, how = find_roles(body.skeleton.with_roles(description.roles))
+    if not limbs.roles or ("guess" not in how.values() and limbs.agree(named)):
+        return replace(body, skeleton=body.skeleton.with_roles(description.roles)), limbs
+    names, told = body.skeleton.names, description.roles
+    roles = {role: names[number] for role, number in limbs.roles.items() if names[number] not in told.values()}
+    if limbs.rigid and "chest" not in told:
+        # Without a waist a point between the shoulders plays the chest: it goes with the pelvis.
+        shoulders = [limbs.roles[f"{side}_shoulder"] for side in ("left", "right")]
+        middle = vector(body.skeleton.rest_positions[shoulders].mean(axis=0))
+        roles["chest"] = "chest"
+        while roles["chest"] in names:
+            roles["chest"] += "_point"
+        ends = {**description.ends, roles["chest"]: Point(description.root.link, middle)}
+        body, _ = _body(msgspec.structs.replace(description, ends=ends))
+    new = [r for r in NEEDED if r in roles and (how.get(r) == "guess" or named.get(r) != limbs.roles.get(r))]
+    shown = ", ".join(f"{role} {roles[role]}" for role in new if not role.startswith("right"))
+    if shown:
+        warnings.warn(
+            f"{name}: its structure tells which joint is what where names do not, or tell otherwise: {shown}; "
+            f"{name}{SUFFIX} beside its file can say otherwise",
+            AssumedWarning,
+            stacklevel=4,
+        )
+    return replace(body, skeleton=body.skeleton.with_roles({**roles, **told})), limbs
+
+
+def _body(description: Description) -> tuple[HingeBody, dict[str, int]]:
+    """The body, and the joint in its skeleton that moves each link."""
     root, links = description.root.link, description.links
     joint = {root: root, **{name: link.joint for name, link in links.items()}}
     hinges = [
@@ -167,4 +225,4 @@ def _body(description: Description) -> HingeBody:
     ]
     ends = [End(name, joint[end.link], end.at) for name, end in description.ends.items()]
     body = HingeBody.of(description.name, root, hinges, ends)
-    return replace(body, skeleton=body.skeleton.with_roles(description.roles))
+    return body, {link: number for number, link in enumerate(joint)}

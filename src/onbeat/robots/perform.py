@@ -21,9 +21,11 @@ from onbeat.retime.retime import Retimed, retime
 from onbeat.retime.sources import Robot as Hinges
 from onbeat.robots.balance import Balanced, balanced
 from onbeat.robots.calm import ACCELERATION, calmed
+from onbeat.robots.legs.ik import Legs
 from onbeat.robots.legs.own import Danced, planted, stepping
 from onbeat.robots.model import Robot
 from onbeat.robots.retarget import retarget
+from onbeat.robots.upright import root_tilt, trunk_tilt, warn_of_lying
 
 Feet = Literal["planted", "stepping"]
 Stage = Callable[[str, float], None]
@@ -94,7 +96,10 @@ def stage(
         If it has no time in the music.
     """
     tell = progress or (lambda stage, share: None)
-    own = dance if is_of(dance, robot) else retarget(dance, robot, keyposes, lambda share: tell("retarget", share))
+    Legs.of(robot)  # what it cannot stand on is said before anything is done
+    is_own = is_of(dance, robot)
+    warn_of_lying(root_tilt(dance) if is_own else trunk_tilt(dance), dance.fps)
+    own = dance if is_own else retarget(dance, robot, keyposes, lambda share: tell("retarget", share))
     source, limits = Hinges(own, robot.body), limits_of(robot)
     retimed = retime(source, warp, limits, beats, keyposes, method, fps, until, lambda share: tell("retime", share))
     assert isinstance(retimed.dance, Motion)

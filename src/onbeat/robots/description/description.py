@@ -54,6 +54,10 @@ _Positive = Annotated[float, msgspec.Meta(gt=0)]
 _NotNegative = Annotated[float, msgspec.Meta(ge=0)]
 
 
+class AssumedWarning(UserWarning):
+    """What a robot's file does not tell, or not well, is assumed, set right or left out."""
+
+
 class Link(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A link and the hinge that turns it against the link above it.
 

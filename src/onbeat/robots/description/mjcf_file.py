@@ -1,7 +1,8 @@
 """Robots of MJCF files: MuJoCo reads them, and what it compiled is taken apart into pieces.
 
 Only the tree under the heaviest body of the world is taken, with its hinges; slides and what equality constraints and
-tendons tie are still or free. Motors, defaults and sensors are not taken: the robot gets its own.
+tendons tie are still or free. Motors, defaults and sensors are not taken: the robot gets its own. Geoms whose meshes
+are not there are left out and counted in a warning.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from onbeat._shapes import Array
 from onbeat.errors import BodyError
 from onbeat.limits.plain_xml import read_xml
 from onbeat.motion import rotations as rot
-from onbeat.robots.description.description import Description
+from onbeat.robots.description.description import AssumedWarning, Description
 from onbeat.robots.description.pieces import Piece, Turn, description_of_pieces
 from onbeat.robots.description.shapes import Shape, box, cloud, cylinder, sphere
 from onbeat.robots.engine import engine
@@ -41,15 +42,50 @@ def read_mjcf(path: Path) -> Description:
     root = read_xml(path, "an MJCF")
     if root.tag != "mujoco":
         raise BodyError(f"{path}: <{root.tag[:40]}> found; an MJCF's <mujoco> is expected")
-    try:
-        model = engine().MjModel.from_xml_path(str(path))
-    except ValueError as error:
-        raise BodyError(f"{path}: MuJoCo cannot read it: {' '.join(str(error).split())[:300]}") from None
+    model = _compiled(path)
     if model.neq or model.ntendon:
-        warnings.warn(f"{path}: its equality constraints and tendons are left out", stacklevel=2)
+        warnings.warn(f"{path}: its equality constraints and tendons are left out", AssumedWarning, stacklevel=2)
     pieces = list(_pieces(model, str(path)))
     name = root.get("model", "") or path.stem
     return description_of_pieces(name, pieces, str(path), path.name)
+
+
+def _compiled(path: Path) -> Any:
+    """MuJoCo's model of a file; geoms whose meshes are not where the file says are left out, with a warning."""
+    left_out = ""
+    try:
+        try:
+            return engine().MjModel.from_xml_path(str(path))
+        except ValueError:
+            spec = engine().MjSpec.from_file(str(path))
+            missing = _without_meshes(spec)
+            if not missing:
+                raise
+            left_out = f" without the {len(missing)} meshes that are not where it says ({missing[0]}, …)"
+            model = spec.compile()
+    except ValueError as error:
+        raise BodyError(f"{path}: MuJoCo cannot read it{left_out}: {' '.join(str(error).split())[:300]}") from None
+    warnings.warn(
+        f"{path}: {len(missing)} meshes are not where it says ({missing[0]}, …): their geoms are left out; links "
+        "without a shape get capsules along them",
+        AssumedWarning,
+        stacklevel=3,
+    )
+    return model
+
+
+def _without_meshes(spec: Any) -> list[str]:
+    """Take the meshes whose files are not there out of a model that is not compiled yet; their files."""
+    folder = Path(spec.modelfiledir, spec.meshdir)
+    gone = {mesh.name or Path(mesh.file).stem: mesh for mesh in spec.meshes if mesh.file}
+    gone = {name: mesh for name, mesh in gone.items() if not (folder / mesh.file).is_file()}
+    missing = [str(Path(spec.meshdir, mesh.file)) for mesh in gone.values()]
+    for element in [*(geom for geom in spec.geoms if geom.meshname in gone), *gone.values()]:
+        if hasattr(spec, "delete"):
+            spec.delete(element)
+        else:  # MuJoCo before 3.3
+            element.delete()
+    return missing
 
 
 def _pieces(model: Any, label: str) -> Iterator[Piece]:

@@ -12,7 +12,17 @@ import numpy as np
 from onbeat._shapes import Array, Positions, Rotations
 from onbeat.errors import BodyError
 from onbeat.motion import rotations as rot
-from onbeat.robots.description.description import Capsule, Description, Link, Point, Root, Sole, six, vector
+from onbeat.robots.description.description import (
+    AssumedWarning,
+    Capsule,
+    Description,
+    Link,
+    Point,
+    Root,
+    Sole,
+    six,
+    vector,
+)
 from onbeat.robots.description.shapes import Shape, as_capsule, bone
 from onbeat.robots.description.soles import Member, feet_of, foot_capsules, side_of
 from onbeat.robots.description.sound import check_description
@@ -88,7 +98,7 @@ def description_of_pieces(name: str, pieces: Sequence[Piece], label: str, source
     found = Description(name=name, root=root, links=links, feet=feet, source=source, ends=ends)
     check_description(found, label)
     if notes:
-        warnings.warn(f"{label}: {'; '.join(notes)}", stacklevel=3)
+        warnings.warn(f"{label}: {'; '.join(notes)}", AssumedWarning, stacklevel=3)
     return found
 
 

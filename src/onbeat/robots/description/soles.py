@@ -1,4 +1,4 @@
-"""Feet found in a robot's file: by their links' names, and the corners of their soles by their shapes.
+"""Feet found in a robot's file: by their links' names or as its lowest ends, and their soles' corners by their shapes.
 
 The sole is the trapezium about what is lowest of the foot's shapes while the robot stands in the zero configuration;
 of a foot without a shape it is estimated from the robot's height, and a warning says so.
@@ -6,6 +6,7 @@ of a foot without a shape it is estimated from the robot's height, and a warning
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -26,6 +27,7 @@ the length before the ankle, and its depth below the ankle for each such metre."
 _FOOT = re.compile(r"foot|feet|sole|ankle")
 _SIDES = {"left": ("left", "l"), "right": ("right", "r")}
 _PART, _LEAST, _HINGES = 0.6, 0.02, 4
+_LEG, _OFF, _MIRROR = 6, 0.1, np.array([1.0, -1.0, 1.0])
 _RADIUS, _ABOVE = 0.03, 0.003
 Corners = tuple[Vector, Vector, Vector, Vector]
 
@@ -50,14 +52,17 @@ def feet_of(members: Sequence[Member], label: str) -> tuple[dict[str, Sole], lis
         If no foot is found; the links there are are named.
     """
     places = _places(members)
+    found = {side: _foot(members, side, places) for side in _SIDES}
+    if not all(found.values()):
+        found |= _mirrored_feet(members, places)
     feet, notes = dict[str, Sole](), list[str]()
-    for side in _SIDES:
-        foot = _foot(members, side, places)
+    for side, foot in found.items():
         if foot is None:
             names = ", ".join(member.name for member in members[:40])
             raise BodyError(
                 f"{label}: no {side} foot found: no link's name has {side!r} or {side[0]!r} and one of foot, sole, "
-                f"ankle; there are {names}"
+                "ankle, and of the lowest ends of its limbs no two mirror each other; name the foot's link "
+                f"{side}_foot; there are {names}"
             )
         corners, note = _corners(foot, *places[foot.name])
         feet[side] = Sole(foot.name, corners)
@@ -73,22 +78,63 @@ def _foot(members: Sequence[Member], side: str, places: Mapping[str, tuple[Rotat
     found = [member for member in members if any(_says(name, side) for name in member.frames)]
     if found:
         return found[-1]
-    above = {member.name: member.parent for member in members}
-    ends = [
-        member
-        for member in members
-        if member.name not in above.values() and side_of(member.name) == side and _depth(member.name, above) >= _HINGES
-    ]
+    ends = [member for member in _ends(members) if side_of(member.name) == side]
     lowest = min(ends, key=lambda member: places[member.name][1][2], default=None)
     return lowest if lowest is not None and places[lowest.name][1][2] < 0 else None
 
 
-def _depth(name: str, above: Mapping[str, str]) -> int:
-    """Hinges between a link and the root."""
-    count = 0
+def _ends(members: Sequence[Member]) -> list[Member]:
+    """Links on which nothing hangs, with hinges enough between them and the root for a leg."""
+    above = {member.name: member.parent for member in members}
+    return [m for m in members if m.name not in above.values() and len(_line(m.name, above)) >= _HINGES]
+
+
+def _mirrored_feet(
+    members: Sequence[Member], places: Mapping[str, tuple[Rotations, Positions]]
+) -> dict[str, Member | None]:
+    """The two ends that mirror each other lowest, whatever they are called; of toes the foot above them.
+
+    Nothing where something else is much lower: such a robot does not stand on these.
+    """
+    above = {member.name: member.parent for member in members}
+    heights = [at[2] for _, at in places.values()]
+    tall = max(heights) - min(heights)
+    pairs = [
+        (one, other)
+        for one, other in itertools.permutations(_ends(members), 2)
+        if places[one.name][1][1] > 1e-3
+        and min(len(_alone(one, other, above)), len(_alone(other, one, above))) >= _HINGES
+        and np.linalg.norm(places[one.name][1] - places[other.name][1] * _MIRROR) < _OFF * tall
+        and max(places[end.name][1][2] for end in (one, other)) < min(min(heights) + _OFF * tall, 0.0)
+    ]
+    if not pairs:
+        return dict.fromkeys(_SIDES)
+    named = {member.name: member for member in members}
+    lowest = min(pairs, key=lambda pair: sum(places[end.name][1][2] for end in pair))
+    toes = [_is_toe(end, _alone(end, other, above)) for end, other in (lowest, lowest[::-1])]
+    feet = [named[end.parent] for end in lowest] if all(toes) else lowest
+    return dict(zip(_SIDES, feet, strict=True))
+
+
+def _alone(end: Member, other: Member, above: Mapping[str, str]) -> list[str]:
+    """The links from an end up to where the other one hangs as well."""
+    lines = [_line(name, above) for name in (end.name, other.name)]
+    return [name for name in lines[0] if name not in lines[1]]
+
+
+def _is_toe(end: Member, leg: Sequence[str]) -> bool:
+    """Whether a link hangs before a foot: behind a leg's six hinges, and more before than below them."""
+    before = float(np.linalg.norm(end.at[:2]))
+    return len(leg) > _LEG and before > max(_LEAST, abs(float(end.at[2])))
+
+
+def _line(name: str, above: Mapping[str, str]) -> list[str]:
+    """A link and those above it, without the root."""
+    line = list[str]()
     while above[name]:
-        name, count = above[name], count + 1
-    return count
+        line.append(name)
+        name = above[name]
+    return line
 
 
 def side_of(name: str) -> str:

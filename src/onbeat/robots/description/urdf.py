@@ -18,7 +18,7 @@ from onbeat._shapes import Positions, Rotations
 from onbeat.errors import BodyError
 from onbeat.limits.plain_xml import as_number, number, read_xml
 from onbeat.motion import rotations as rot
-from onbeat.robots.description.description import Description
+from onbeat.robots.description.description import AssumedWarning, Description
 from onbeat.robots.description.pieces import Piece, Turn, description_of_pieces
 from onbeat.robots.description.shapes import Shape, box, cloud, cylinder, sphere
 from onbeat.robots.description.stl import read_stl
@@ -53,6 +53,7 @@ def read_urdf(path: Path) -> Description:
         warnings.warn(
             f"{label}: {len(meshes.missing)} meshes are not beside it ({meshes.missing[0]}, …); links without a shape "
             "get capsules along them",
+            AssumedWarning,
             stacklevel=2,
         )
     return description_of_pieces(name, pieces, label, f"{path.name}")

@@ -22,7 +22,7 @@ from onbeat.motion.contacts import SIDES, foot_contacts
 from onbeat.motion.motion import Motion
 from onbeat.motion.retarget import most_upright_frame, stands_in_rest
 from onbeat.motion.retarget import retarget as onto_skeleton
-from onbeat.robots.model import Robot
+from onbeat.robots.model import Robot, body_of
 
 KEYPOSE_WEIGHT = 3.0
 """How much more a frame at a keypose weighs."""
@@ -106,9 +106,9 @@ def aims_of(motion: Motion, robot: Robot, keyposes: Times | None = None) -> Aims
     Raises
     ------
     BodyError
-        If a role that is needed is missing on either side.
+        If a role that is needed is missing on either side, or the robot does not stand where its angles are zero.
     """
-    source, target = Body.of(motion.skeleton), Body.of(robot.body.skeleton)
+    source, target = Body.of(motion.skeleton), body_of(robot)
     ideal = onto_skeleton(motion, robot.body.skeleton)
     vectors = [*_bones(motion, source, target), *_hands(motion, source, target)]
     vectors += [*_feet(motion, source, ideal, target, robot)]

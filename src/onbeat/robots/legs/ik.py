@@ -75,7 +75,7 @@ class Leg:
         Raises
         ------
         BodyError
-            If there is no such foot, or fewer than six hinges lead to it.
+            If there is no such foot, fewer than six hinges lead to it, or which of them is the knee is not known.
         """
         if side not in robot.feet:
             raise BodyError(f"{robot.name} has no {side} foot; it has {', '.join(robot.feet) or 'none'}")
@@ -87,12 +87,16 @@ class Leg:
         link = data.body(foot.link)
         joints = _joints_to(model, link.id)
         if len(joints) < 6:
-            raise BodyError(f"{robot.name}: {len(joints)} hinges lead to {foot.link}; a foot needs 6 to stand flat")
+            raise BodyError(
+                f"{robot.name}: {len(joints)} hinges lead to {foot.link}, not counting any that only follow another; a "
+                "foot needs 6 to stand flat wherever the hips are, so it cannot be put on its feet; a dance that is a "
+                "table of its joint angles can be retimed: onbeat retime ANGLES.csv --limits FILE"
+            )
         places = np.concatenate((np.zeros((1, 3)), data.xanchor[joints], link.xpos[None]))
         names = [model.joint(j).name for j in joints]
         hinges = np.array([robot.body.names.index(name) for name in names])
         low, high, axes = robot.body.low[hinges].copy(), robot.body.high[hinges].copy(), data.xaxis[joints]
-        knee = names.index(robot.roles[f"{side}_knee"])
+        knee = _knee(robot, side, names)
         _keep_bent(low, high, knee)
         corners = rot.rotate(np.tile(link.xquat, (len(foot.corners), 1)), np.asarray(foot.corners, np.float64))
         return cls(
@@ -144,8 +148,15 @@ class Legs:
 
     @classmethod
     def of(cls, robot: Robot) -> Legs:
-        """The legs of a robot; a ``BodyError`` where it does not stand on two feet."""
-        return cls((Leg.of(robot, "left"), Leg.of(robot, "right")))
+        """The legs of a robot; a ``BodyError`` where it does not stand on two feet, or its root is not the pelvis."""
+        left, right = Leg.of(robot, "left"), Leg.of(robot, "right")
+        shared = [robot.body.names[hinge] for hinge in left.hinges if hinge in right.hinges]
+        if shared:
+            raise BodyError(
+                f"{robot.name}: {', '.join(shared)} {'are' if shared[1:] else 'is'} between its root, "
+                f"{robot.body.skeleton.names[0]}, and both its legs; a file whose root is the pelvis is expected"
+            )
+        return cls((left, right))
 
     def feet(self, qpos: Array) -> tuple[Positions, Rotations]:
         """Places (F, 2, 3) and turns (F, 2, 4) of the feet in the world, of configurations (F, 7 + n)."""
@@ -171,6 +182,17 @@ class Legs:
     def within(self, guard: float) -> Legs:
         """The same legs whose hinges stay some radians inside their limits."""
         return Legs((self.both[0].within(guard), self.both[1].within(guard)))
+
+
+def _knee(robot: Robot, side: str, names: list[str]) -> int:
+    """Which of a leg's hinges is the knee."""
+    knee = robot.roles.get(f"{side}_knee", "")
+    if knee not in names[1:-1]:
+        raise BodyError(
+            f"{robot.name}: its {side} knee is {knee or 'not known'}; one of {', '.join(names[1:-1])} is expected; "
+            f'tell it in {robot.name}.roles.toml beside its file: [joints] and a line like {side}_knee = "{names[3]}"'
+        )
+    return names.index(knee)
 
 
 def _joints_to(model: Any, link: int) -> list[int]:
