@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -16,6 +17,12 @@ from onbeat.formats import write_motion
 from onbeat.moves.library import MoveLibrary
 
 Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture(autouse=True)
+def no_heartbeat(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is said of work that takes long would be said or not as the computer is busy."""
+    monkeypatch.setattr("onbeat.cli.heartbeat.EVERY", math.inf)
 
 
 @pytest.fixture

@@ -155,3 +155,18 @@ def test_a_users_error_is_one_line(words, message, tmp_path, monkeypatch, capsys
     assert message in err or message.upper() in err
     assert err.count("\n") == 1
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.npz"]
+
+
+def test_a_body_without_length_has_no_height_to_change(tmp_path, monkeypatch, capsys):
+    flat = person().replace(offsets=np.zeros((len(person()), 3)))
+    write_motion(swinging(flat), tmp_path / "a.npz")
+    assert run(monkeypatch, tmp_path / "a.npz", tmp_path / "b.bvh", "--height", "1.7") == 1
+    assert "its bones have no length" in capsys.readouterr().err
+
+
+def test_an_axis_that_points_down_is_written_and_read(tmp_path, monkeypatch):
+    motion = swinging(person(), frames=5, angle=0.1)
+    write_motion(motion, tmp_path / "a.npz")
+    assert run(monkeypatch, tmp_path / "a.npz", tmp_path / "b.bvh", "--up", "-y", "--unit", "dm") == 0
+    assert run(monkeypatch, tmp_path / "b.bvh", tmp_path / "c.npz", "--source-up", "-y", "--source-unit", "dm") == 0
+    np.testing.assert_allclose(read_motion(tmp_path / "c.npz").positions, motion.positions, atol=1e-5)

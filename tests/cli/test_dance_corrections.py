@@ -63,3 +63,22 @@ def test_no_beat_is_said_and_beats_can_be_given(run: Run, clips: Path, tmp_path:
     assert status == 1
     assert "no beat is heard in 6.0 s of noise" in err
     assert run(noise, "--moves", clips, "-o", tmp_path / "dance", "--beats", mine)[0] == 0
+
+
+def test_what_is_told_of_the_tempo_is_danced(run: Run, song: Path, clips: Path, tmp_path: Path, mine: Path) -> None:
+    out = tmp_path / "dance"
+    status, printed, err = run(song, "--moves", clips, "-o", out, "--beats", mine, "--tempo", "half")
+    assert status == 0, err
+    assert "at 50 BPM" in printed
+    assert "heard" not in err
+    assert json.loads((out / "song.json").read_bytes())["tempo"] == pytest.approx(50.0)
+    assert "heard_bpm" not in json.loads((out / "dance.json").read_bytes())
+
+
+def test_no_beat_is_said_before_the_moves_are_read(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("onbeat.cli.dance._library", lambda *_: pytest.fail("the moves were read"))
+    noise = tmp_path / "noise.wav"
+    soundfile.write(noise, 0.1 * np.random.default_rng(0).standard_normal(22050 * 6), 22050)
+    status, _, err = run(noise, "-o", tmp_path / "dance")
+    assert status == 1
+    assert "or say where the beats are with --beats or --tap" in err

@@ -119,7 +119,7 @@ def test_what_one_clip_cannot_fill_is_refused(run: Run, song: Path, clips: Path,
     status, _, err = run(song, "--moves", tmp_path / "short.npz", "-o", out)
     assert status == 1
     assert one_line(err)
-    assert "add clips or take fewer --seconds" in err
+    assert "add clips, or dance to 2.8 --seconds at most" in err
     assert not out.exists()
 
 

@@ -126,3 +126,18 @@ def test_a_song_without_beats_is_told(
     assert "onbeat: none of the 0 beats of calm.json falls into the motion" in capsys.readouterr().err
     assert run(monkeypatch, *files[:1], "--music", files[1], *table) == 0
     assert "say nothing" not in capsys.readouterr().err
+
+
+def test_feet_that_hardly_stand_get_no_score_for_it_and_it_is_told(tmp_path, monkeypatch, capsys):
+    motion = swinging()
+    path = motion.root_positions.copy()
+    path[:, 0] = 2.0 * np.arange(len(path)) / motion.fps  # slides on, faster than any foot that stands
+    write_motion(motion.replace(root_positions=path), tmp_path / "slides.npz")
+    (tmp_path / "song.json").write_bytes(song().to_json())
+    assert run(monkeypatch, str(tmp_path / "slides.npz"), "--music", str(tmp_path / "song.json"), "--json") == 0
+    said = capsys.readouterr()
+    feet = json.loads(said.out)["feet"]
+    assert feet["contact_part"] < 0.1
+    assert feet["skate"] is None
+    assert feet["support"] == pytest.approx(2.0, abs=0.1)
+    assert "feet stand still in 0% of slides.npz" in said.err

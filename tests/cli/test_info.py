@@ -93,7 +93,13 @@ def test_a_roles_file_for_markers_to_edit(tmp_path, monkeypatch, capsys):
 def test_a_body_in_a_wrong_unit_is_doubted(tmp_path, monkeypatch, capsys):
     write_motion(swinging(person(), frames=30, angle=0.1), tmp_path / "a.bvh", unit="in")
     assert run(monkeypatch, tmp_path / "a.bvh") == 0
-    assert "is the unit right? (`--source-unit`; in are inches)" in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert "is the unit right? (`--source-unit`; in are inches)" in said.out
+    assert "in makes it 1.75 m" in said.err
+    assert run(monkeypatch, tmp_path / "a.bvh", "--unit", "in", "--up", "-y") == 0
+    said = capsys.readouterr()
+    assert "the head is under the feet nearly throughout" in said.out
+    assert not said.err
 
 
 @pytest.mark.parametrize(("name", "message"), [("none.bvh", "no file"), ("a.txt", "cannot read")])

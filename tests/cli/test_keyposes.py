@@ -151,3 +151,11 @@ def test_examples_need_beats(onbeat: Run, folder: Path, tmp_path: Path) -> None:
     status, _, err = onbeat("keyposes", "learn", tmp_path / "Aiko.npz")
     assert status == 1
     assert "no Aiko.beats and no song Aiko.wav beside Aiko.npz" in err
+
+
+def test_a_song_without_a_beat_is_said(onbeat: Run, folder: Path, tmp_path: Path) -> None:
+    noise = tmp_path / "noise.wav"
+    soundfile.write(noise, 0.1 * np.random.default_rng(0).standard_normal(22050 * 6), 22050)
+    status, out, err = onbeat("keyposes", folder / "Aiko.npz", "--music", noise)
+    assert (status, out) == (1, "")
+    assert f"no beat is heard in {noise}: say where the beats are with --beats, or leave the song out" in err

@@ -75,7 +75,7 @@ def test_poses_come_as_lines_and_nothing_else_is_on_stdout(dance):
 def test_the_page_is_served_and_ctrl_c_ends_it_well(dance):
     process = subprocess.Popen([*LIVE, str(dance), "--port", "0"], stderr=subprocess.PIPE, text=True)
     try:
-        lines = (process.stderr.readline() for _ in range(3))
+        lines = iter(process.stderr.readline, "")
         port = next(int(found[1]) for line in lines if (found := re.search(r"http://127\.0\.0\.1:(\d+)/", line)))
         with socket.create_connection(("127.0.0.1", port), timeout=120) as page:
             page.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n\r\n".encode())

@@ -219,3 +219,24 @@ def test_what_cannot_be_cut_is_one_clear_line(
     assert status == 1
     assert message in err
     assert out == ""
+
+
+def test_files_that_cannot_be_used_are_told_and_the_others_answered(
+    onbeat: Run, folder: Path, model: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "broken.bvh").write_text("HIERARCHY")
+    good, lists = folder / "Aiko claps.npz", tmp_path / "list.csv"
+    lists.write_text(HEAD + f"{good},,,,,0\nbroken.bvh,,,,,0\n{good},0.1,1.0,,,0\n")
+    _, alone, _ = onbeat("recognise", model, good, "--json")
+    status, out, err = onbeat("recognise", model, tmp_path / "broken.bvh", good, tmp_path / "none.npz", lists, "--json")
+    assert status == 0
+    document = json.loads(out)
+    assert document["segments"][:2] == json.loads(alone)["segments"] * 2
+    assert [row["to"] for row in document["segments"][2:]] == [1.0]
+    assert len(document["problems"]) == 2
+    assert [line.startswith("onbeat: left out ") for line in err.splitlines()] == [True, True]
+    assert "broken.bvh" in err
+    assert "none.npz" in err
+    status, out, err = onbeat("recognise", model, tmp_path / "broken.bvh", tmp_path / "none.npz")
+    assert (status, out) == (1, "")
+    assert "none of 2 files can be recognised; " in err

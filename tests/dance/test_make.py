@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from onbeat.dance.document import DanceDocument
-from onbeat.dance.make import LONGEST, Dance, make_dance
+from onbeat.dance.make import LONGEST, Dance, danceable, make_dance
 from onbeat.errors import PlanError
 from onbeat.motion.features import hand_features
 from onbeat.moves.library import MoveLibrary
@@ -123,3 +123,13 @@ def test_it_says_how_far_it_is(few: MoveLibrary) -> None:
 def test_refusals(few: MoveLibrary, song: Song, options: dict[str, float], message: str) -> None:
     with pytest.raises(PlanError, match=message):
         make_dance(song, few, **options)
+
+
+@pytest.mark.parametrize("tempo", [30.0, 200.0])
+def test_beats_that_are_told_are_danced_to_as_they_are(few: MoveLibrary, tempo: float) -> None:
+    song = song_of(SECONDS, tempo)
+    told = make_dance(song, few, fps=30, as_told=True)
+    np.testing.assert_array_equal(told.song.beats, song.beats)
+    assert not told.document.heard_bpm
+    assert danceable(song).tempo in (60.0, 120.0, 100.0)
+    assert danceable(song, as_told=True) is song

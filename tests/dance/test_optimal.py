@@ -9,6 +9,7 @@ from onbeat.dance.frames import lay_frames
 from onbeat.dance.optimal import HOLD, Problem, ValueToGo, best_path, joins_from, score_path
 from onbeat.dance.score import FINE, Music
 from onbeat.dance.seams import Seams
+from onbeat.dance.too_long import too_long
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import MoveLibrary
@@ -100,8 +101,18 @@ def test_score_refuses_joins_too_soon_after_each_other() -> None:
 
 def test_a_song_longer_than_any_dance_is_refused() -> None:
     problem = replace(two_clips(), music=music(40, []))
-    with pytest.raises(PlanError, match=r"no dance over the joins of this library lasts the song's 1\.3 s"):
+    with pytest.raises(PlanError, match=r"longest dance .* lasts 0\.8 s, and the song 1\.3 s"):
         ValueToGo(problem)
+
+
+@pytest.mark.parametrize("rows", [None, 8])
+def test_the_longest_dance_that_is_told_can_be_danced(rows: int | None) -> None:
+    with pytest.raises(PlanError):
+        ValueToGo(replace(two_clips(), music=music(27, [])), rows)
+    assert len(best_path(ValueToGo(replace(two_clips(), music=music(26, [])), rows)).times) == 2
+    # Of clips of three and more seconds what is told is advised, too: 2.66 s are 2.6.
+    assert too_long(80, 200).endswith("add clips, or dance to 2.6 --seconds at most")
+    assert too_long(26, 40).endswith("add clips")
 
 
 def test_the_last_frames_of_a_clip_can_end_the_song() -> None:

@@ -41,5 +41,5 @@ def test_what_cannot_be_read_or_written_is_said(tmp_path):
 def test_unknown_conventions_are_refused():
     with pytest.raises(FormatError, match="the up axis 'w' is not known"):
         Convention("w")  # pyright: ignore[reportArgumentType]
-    with pytest.raises(FormatError, match="m, cm, mm, in, cmu are expected"):
+    with pytest.raises(FormatError, match="m, cm, mm, in, cmu, dm, ft are expected"):
         Convention("y", "yards")

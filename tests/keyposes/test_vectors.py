@@ -85,8 +85,11 @@ def test_what_is_no_body_is_named():
 
 def test_a_body_without_size_is_refused(dance):
     point = dance.skeleton.replace(offsets=np.zeros_like(dance.skeleton.offsets))
-    with pytest.raises(MetricError, match="the body of point is 0 m"):
+    with pytest.raises(BodyError, match=r"^point: the arms and legs have no length, so a body cannot be told"):
         pose_vectors([Motion(point, dance.rotations, dance.root_positions, dance.fps, "point")])
+    speck = dance.skeleton.replace(offsets=dance.skeleton.offsets * 1e-4)
+    with pytest.raises(MetricError, match=r"the body of speck is 0\.0001"):
+        pose_vectors([Motion(speck, dance.rotations, dance.root_positions, dance.fps, "speck")])
     huge = dance.skeleton.replace(offsets=dance.skeleton.offsets * 1e150)
     with pytest.raises(MetricError, match="is the unit right"):
         pose_vectors([Motion(huge, dance.rotations, dance.root_positions, dance.fps)])

@@ -83,3 +83,16 @@ def test_roles_of_real_bodies_lie_as_in_a_body(data, name):
         assert hip[2] > knee[2] > ankle[2] > toe[2] - 0.02
         assert toe[1] > ankle[1]
     assert local[body["head"], 2] > local[body["neck"], 2] >= local[body["chest"], 2] > 0
+
+
+def test_bodies_without_a_shape_are_refused_in_a_line():
+    whole = person()
+    with pytest.raises(BodyError, match=r"^the arms and legs have no length, so a body cannot be told; export"):
+        Body.of(whole.replace(offsets=np.zeros_like(whole.offsets)))
+    lame = np.array(whole.offsets)
+    lame[[whole.index("LeftElbow"), whole.index("LeftWrist")]] = 0
+    with pytest.raises(BodyError, match=r"^the left arm has no length"):
+        Body.of(whole.replace(offsets=lame))
+    flat = whole.replace(offsets=np.tile([0, 0.02, 0], (len(whole), 1)))
+    with pytest.raises(BodyError, match="left and right of the body cannot be told"):
+        body_frames(swinging(flat, angle=0.0))

@@ -74,3 +74,16 @@ def test_twist_is_the_turn_about_the_vertical_whatever_the_tilt():
     tilt = rot.about(np.array([1.0, 0, 0]), 0.4)
     assert twist(tilt, rot.multiply(rot.yaw(0.7), tilt)) == pytest.approx(0.7)
     assert twist(tilt, -rot.multiply(rot.yaw(-0.7), tilt)) == pytest.approx(-0.7)
+
+
+@pytest.mark.parametrize("fps", [30, 60, 120])
+def test_lost_frames_far_below_change_no_other_contact(fps):
+    _, paths = stepping(fps)
+    bad = slice(3 * fps, 3 * fps + round(0.2 * fps))
+    broken = paths.copy()
+    broken[bad] = [0.0, 0.0, -0.9]
+    (rests, floor), (expected, sound) = resting(broken, fps), resting(paths, fps)
+    assert floor == pytest.approx(sound, abs=1e-3)
+    assert not rests[bad.start + 1 : bad.stop - 1].any()
+    far = np.abs(np.arange(len(paths)) / fps - 3.1) > 0.4
+    assert np.array_equal(rests[far], expected[far])

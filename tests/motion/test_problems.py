@@ -96,3 +96,46 @@ def test_sides_that_differ():
 def test_what_is_no_body_is_said():
     rod = swinging(type(person())(("a", "b"), [-1, 0], [[0, 0, 0], [0, 0, 1]]), 90, 30)
     assert "no joint found for hips" in found(rod) or "no joint found for" in found(rod)
+
+
+@pytest.mark.parametrize("fps", [30.0, 120.0])
+def test_a_pose_of_several_frames_in_front_is_no_flip_and_no_leap(fps):
+    good = standing(int(3 * fps), fps)
+    turns, path = np.array(good.rotations), np.array(good.root_positions)
+    arms = [j for j, name in enumerate(good.skeleton.names) if "Shoulder" in name or "Elbow" in name]
+    turns[:20] = turns[20]
+    turns[:20, arms] = rot.about(np.array([0, 1.0, 0]), np.radians(80))
+    path[:20] += [3, 0, 0]
+    said = found(good.replace(rotations=turns, root_positions=path))
+    assert said.startswith("frames 0–19 are a pose by itself")
+    assert f"--start {20 / fps:.4g}" in said
+    assert "leap" not in said
+    assert "flip" not in said
+
+
+def test_a_joint_that_leaps_is_named():
+    good = standing(120, 60.0)
+    turns = np.array(good.rotations)
+    shoulder = good.skeleton.names.index("LeftShoulder")
+    turns[60, shoulder] = rot.about(np.array([0, 1.0, 0]), np.pi)
+    assert found(good.replace(rotations=turns)).startswith("LeftWrist leaps at 4 frames, furthest between 60 and 61")
+
+
+def test_motion_without_its_path_is_told():
+    motion = swinging(person(), 90, 30.0, angle=0.5)
+    turns = np.array(motion.rotations)
+    turns[:, 0] = rot.IDENTITY
+    fixed = motion.replace(rotations=turns, root_positions=np.tile([0, 0, 0.9], (90, 1)))
+    assert "the hips never move, though the feet do" in found(fixed)
+    assert "the hips never move" not in found(standing())
+
+
+def test_feet_in_the_air_are_no_floor():
+    upright = standing()
+    turns = np.array(upright.rotations)
+    turns[:, 0] = rot.about(np.array([1.0, 0, 0]), np.pi)
+    over = upright.replace(rotations=turns, root_positions=np.zeros((len(upright), 3)))
+    over = over.replace(root_positions=np.tile([0, 0, 0.1 - over.positions[..., 2].min()], (len(over), 1)))
+    said = found(over)
+    assert "the feet are in the air all along" in said
+    assert "--ground" not in said

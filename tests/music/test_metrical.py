@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -45,6 +47,15 @@ def test_without_bars_the_beats_decide() -> None:
     odds = heard()
     chosen = likeliest_level(metrical_levels(odds, SPACE, 1.5), odds, SPACE, lambda _: 0.0)
     assert np.median(np.diff(chosen)) == 50
+
+
+@pytest.mark.parametrize(("favour", "chosen"), [(0.8, 50), (4.0, 75)])
+def test_a_pulse_across_the_bars_needs_more_than_a_little(favour: float, chosen: int) -> None:
+    """Odds that say as much for each level: bars that are a little likelier do not make a beat and a half one."""
+    odds, pulses = np.zeros(3000), [np.arange(20, 2990, step) for step in (50, 75)]
+    flat = replace(SPACE, log_prior=np.zeros(len(SPACE.log_prior)))
+    found = likeliest_level(pulses, odds, flat, lambda beats: favour * (np.median(np.diff(beats)) == 75))
+    assert np.median(np.diff(found)) == chosen
 
 
 def test_nothing_heard_and_too_short() -> None:

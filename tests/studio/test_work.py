@@ -15,7 +15,8 @@ from onbeat.errors import OnbeatError
 from onbeat.examples.troupe import dance_library
 from onbeat.formats.bvh.write import write_bvh
 from onbeat.formats.trc.write import write_trc
-from onbeat.motion import Markers, Motion
+from onbeat.formats.write import write_motion
+from onbeat.motion import Markers, Motion, Skeleton
 from onbeat.studio import advice
 from onbeat.studio.clip_list import ClipList
 from onbeat.studio.song_view import song_view
@@ -219,6 +220,18 @@ def test_a_rate_that_no_file_stores_is_assumed_told_and_said(tmp_path: Path):
     assert not asks.rate_stored
 
 
+def test_a_size_that_is_no_person_s_is_doubted(tmp_path: Path, swinger: Motion):
+    bones = swinger.skeleton
+    small = Skeleton(bones.names, bones.parents, 0.15 * bones.offsets)
+    write_motion(Motion(small, swinger.rotations, 0.15 * swinger.root_positions, swinger.fps), tmp_path / "x.npz")
+    write_motion(swinger, tmp_path / "y.npz")
+    files = [(f"motion-{k}", str(tmp_path / f"{k}.npz"), f"{k}.npz") for k in "xy"]
+    odd, usual = done(LookTask(str(tmp_path / "look"), files)).seen
+    assert "m (is that right?)" in odd.body
+    assert "is the unit right?" in odd.note
+    assert "right?" not in usual.body + usual.note
+
+
 def test_a_library_has_its_motions_at_the_rates_that_were_said(tmp_path: Path, moves: str, swinger: Motion):
     write_bvh(swinger, tmp_path / "x1.bvh")
     files = [(str(tmp_path / "x1.bvh"), "walk.bvh")]
@@ -247,7 +260,11 @@ def test_a_picture_is_no_song_and_is_told_so_by_its_name(tmp_path: Path):
     ("said", "here"),
     [
         ("a: choose a stretch with --start and --seconds", "a: choose a stretch of the song"),
-        ("too few poses; add clips or take fewer --seconds", "too few poses; add clips or dance to fewer seconds"),
+        (
+            "too few poses; add clips, or dance to 9.5 --seconds at most",
+            "too few poses; add clips, or dance to 9.5 sec",
+        ),
+        ("no beat is heard: or say where the beats are with --beats or --tap", "no beat is heard: or put its beats in"),
         ("no rate; say it with --fps (of `onbeat convert`, --source-fps)", "no rate; where that is wrong, "),
         ("is the unit right? (`--source-unit`; in are inches)", "is the unit right?"),
         ("a.bvh: no end; 3 more to know: `onbeat info a.bvh`", "a.bvh: no end; 3 more to know"),

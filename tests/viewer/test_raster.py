@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from onbeat.errors import BodyError
 from onbeat.motion import Motion, Skeleton
 from onbeat.viewer.figure import Figure, ground_height
 from onbeat.viewer.render.camera import Camera, follow
@@ -152,3 +153,10 @@ def test_a_contact_sheet_has_a_picture_for_each_time() -> None:
     for top, left in ((0, 0), (0, 60), (80, 0)):
         part = sheet[top + 20 : top + 78, left : left + 58].astype(int)
         assert (np.ptp(part, axis=-1) > 60).sum() > 50  # someone in colour stands there
+
+
+def test_a_body_of_which_nothing_can_be_seen_is_refused():
+    flat = Skeleton(("hips", "head"), [-1, 0], np.zeros((2, 3)))
+    still = Motion(flat, np.tile([1.0, 0, 0, 0], (3, 2, 1)), np.zeros((3, 3)), fps=30)
+    with pytest.raises(BodyError, match="nothing of the body to draw"):
+        ground_height(Figure.of(flat), still)

@@ -8,6 +8,7 @@ import os
 import sys
 from typing import NoReturn
 
+from onbeat.cli.own_stderr import own_stderr
 from onbeat.errors import OnbeatError
 
 
@@ -16,6 +17,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # names of files may hold what a terminal cannot show
             stream.reconfigure(errors="backslashreplace")
+    own_stderr()
     try:
         # Imported here, so that Ctrl-C is a word and no traceback from the first moment on.
         from onbeat.cli.commands import app

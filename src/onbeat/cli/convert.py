@@ -23,8 +23,9 @@ from onbeat.motion.mirror import mirrored
 from onbeat.motion.retarget import retarget
 from onbeat.motion.role_file import Roles, read_roles
 
-Unit = Literal["m", "cm", "mm", "in", "cmu"]
+Unit = Literal["m", "cm", "mm", "in", "cmu", "dm", "ft"]
 Flag = cyclopts.Parameter(negative="")
+Axis = cyclopts.Parameter(allow_leading_hyphen=True)
 
 
 @dataclass
@@ -38,9 +39,9 @@ class Options:
     source_fps
         The rate of the source, where it stores none (AMC, robot CSV) or a wrong one.
     source_up
-        The axis of the source that points up, where the guess is wrong.
+        The axis of the source that points up, where the guess is wrong; -y where Y points down.
     source_unit
-        The unit of the source, where the guess is wrong; cmu is the length of CMU's files.
+        The unit of the source, where the guess is wrong; cmu is the length of CMU's files, ft are feet.
     up
         Up axis of the new file, where its format leaves it free.
     unit
@@ -69,9 +70,9 @@ class Options:
 
     fps: float | None = None
     source_fps: float | None = None
-    source_up: Up | None = None
+    source_up: Annotated[Up | None, Axis] = None
     source_unit: Unit | None = None
-    up: Up | None = None
+    up: Annotated[Up | None, Axis] = None
     unit: Unit | None = None
     start: float = 0.0
     end: float | None = None
@@ -185,7 +186,10 @@ def _joined(found: list[Motion | Markers], options: Options) -> Motion | Markers
 
 def _changed(motion: Motion, options: Options) -> Motion:
     motion = mirrored(motion) if options.mirror else motion
-    factor = options.scale if options.height is None else options.height / stature(motion)
+    tall = stature(motion) if options.height is not None else 1.0
+    if not tall > 0:
+        raise FormatError("the body is 0 m tall, which no --height can change: its bones have no length")
+    factor = options.scale if options.height is None else options.height / tall
     motion = motion if factor is None else scaled(motion, factor)
     motion = on_floor(motion) if options.ground else motion
     return motion if options.fps is None else motion.resampled(options.fps)

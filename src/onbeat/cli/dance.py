@@ -23,7 +23,7 @@ from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.cli.swapped import refuse_swapped
 from onbeat.cli.video_flags import NO_VIDEO, Film, VideoFlags
 from onbeat.cli.wish_flags import NO_WISH_FLAGS, WishFlags
-from onbeat.dance.make import LONGEST, Dance, make_dance
+from onbeat.dance.make import LONGEST, Dance, danceable, make_dance
 from onbeat.errors import LibraryError, OnbeatError, PlanError
 from onbeat.files import make_folder
 from onbeat.moves.library import MoveLibrary
@@ -111,11 +111,13 @@ def dance_command(
     if clips is not None and not clips.exists():
         raise LibraryError(f"no file or folder {moves}; give a folder of motion files (BVH, AMC, C3D …) to --moves")
     with warnings_as_lines(), threadpool_limits(1, "blas"), Stages(PARTS) as stages:  # bits do not depend on threads
-        heard, sound = hear(song_file, start, seconds, seed, flags.corrections(), stages)
+        fixes = flags.corrections()
+        heard, sound = hear(song_file, start, seconds, seed, fixes, stages)
+        danceable(heard, fixes.tells_tempo)  # a song that is not is told before the moves are read
         library = _library(clips, mirror, source_fps, stages)
         dance = make_dance(
             heard, library, fps=fps, seed=seed, method=method, rhythm_only=rhythm_only, warp=warp, wishes=wishes,
-            step=stages,
+            as_told=fixes.tells_tempo, step=stages,
         )  # fmt: skip
         with _staged(output) as folder:
             _write(folder, dance, library, sound, film, stages)

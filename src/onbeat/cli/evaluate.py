@@ -46,6 +46,7 @@ _ROWS = (
     ("beats", "beat_align_bailando", "beat-align, Bailando", ".2f", "beat_align_bailando_null", ""),
     ("intensity", "intensity_pearson", "intensity, Pearson's r", ".2f", "", ""),
     ("intensity", "intensity_spearman", "intensity, Spearman's ρ", ".2f", "", ""),
+    ("feet", "contact_part", "a foot on the floor", ".0%", "", ""),
     ("feet", "skate", "foot speed in contact (m/s)", ".3f", "", ""),
     ("feet", "skate_p95", "… its 95th percentile", ".3f", "", ""),
     ("feet", "support", "speed of the slower foot (m/s)", ".3f", "", ""),
@@ -109,6 +110,11 @@ def evaluate_command(
             f"onbeat: none of the {len(song.beats)} beats of {music.name} falls into the motion: its scores on beats "
         )
         told += "say nothing; look at onbeat listen, or say with --start where in the song the motion begins"
+        print(told, file=sys.stderr)  # noqa: T201
+    if scores["feet"]["skate"] is None:
+        part = scores["feet"]["contact_part"] or 0.0
+        told = f"onbeat: feet stand still in {part:.0%} of {motion.name}: whether they slide cannot be told; look at "
+        told += f"`onbeat info {motion}`"
         print(told, file=sys.stderr)  # noqa: T201
     if json:
         document: dict[str, Any] = {"version": VERSION, "motion": motion.name, "song": music.name, **scores}

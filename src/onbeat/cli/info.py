@@ -28,7 +28,7 @@ def info_command(
     /,
     *,
     fps: SourceRate = None,
-    up: Annotated[Up | None, cyclopts.Parameter(name=["--up", "--source-up"])] = None,
+    up: Annotated[Up | None, cyclopts.Parameter(name=["--up", "--source-up"], allow_leading_hyphen=True)] = None,
     unit: Annotated[str | None, cyclopts.Parameter(name=["--unit", "--source-unit"])] = None,
     roles: Path | None = None,
     roles_template: Annotated[bool, cyclopts.Parameter(negative=())] = False,
@@ -43,9 +43,9 @@ def info_command(
     fps
         The rate of its frames, where it stores none or a wrong one.
     up
-        The axis that points up, where the guess is wrong.
+        The axis that points up, where the guess is wrong; -y where Y points down.
     unit
-        The unit of length, where the guess is wrong: m, cm, mm, in or cmu.
+        The unit of length, where the guess is wrong: m, cm, mm, dm, in, ft or cmu.
     roles
         A roles file (TOML) that says which joint or marker is what.
     roles_template

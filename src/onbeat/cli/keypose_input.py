@@ -81,6 +81,11 @@ def beats_of(source: Motion | Markers, flags: BeatFlags, local: bool = True) -> 
         return listed.times + flags.song_at, down + flags.song_at
     if flags.music:
         song = _heard(flags.music)
+        if len(song.beats) < 2:
+            raise OnbeatError(
+                f"{'one beat is' if len(song.beats) else 'no beat is'} heard in {flags.music}: say where the beats are "
+                "with --beats, or leave the song out, so that a pulse of the motion itself is taken"
+            )
         return song.beats + flags.song_at, song.downbeats + flags.song_at
     found = motion_beats(source, local)
     tempo = 60.0 / float(np.median(np.diff(found)))

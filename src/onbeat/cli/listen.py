@@ -9,14 +9,13 @@ from typing import Annotated
 import cyclopts
 import numpy as np
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 from rich.text import Text
 
 import onbeat
 from onbeat.cli.corrections import NO_FLAGS, CorrectionFlags
 from onbeat.cli.fetching import song_path
-from onbeat.cli.progress import warnings_as_lines
+from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.errors import OnbeatError
 from onbeat.files import write_atomically
 from onbeat.music import METHODS, Song, listen
@@ -32,25 +31,28 @@ UNSURE = 0.5  # median confidence, under which a user is told
 
 
 def _hear(path: Path, method: str, start: float, seconds: float | None, corrections: Corrections) -> Song:
-    """Hear with a progress bar on stderr; a damaged file is warned of in one line there."""
+    """Hear with progress on stderr; a damaged file is warned of in one line there."""
     whole = max(audio_duration(path) - start, 0.0)
-    screen = Console(stderr=True)
-    columns = (TextColumn("hearing {task.fields[song]}", markup=False), BarColumn(), TimeRemainingColumn())
-    with (
-        warnings_as_lines(),
-        Progress(*columns, console=screen, transient=True, disable=not screen.is_terminal) as bar,
-    ):
-        task = bar.add_task("", total=min(seconds or whole, whole) or None, song=path.name)
-        return listen(path, method, start, seconds, lambda heard: bar.update(task, completed=heard), corrections)
+    wanted = min(seconds or whole, whole)
+    with warnings_as_lines(), Stages(passing=True) as stages:
+        stages("hearing", 0.0, path.name)
+        return listen(
+            path, method, start, seconds, lambda heard: stages("hearing", heard / max(wanted, 1e-9), path.name),
+            corrections,
+        )  # fmt: skip
 
 
-def _table(song: Song) -> Table:
+def _table(song: Song, told: bool) -> Table:
+    """What was heard; ``told`` of a song whose tempo was said, which is danced to as it is."""
     table = Table(show_header=False, box=None, pad_edge=False)
     first = f", the first at {song.downbeats[0]:.3f} s" if len(song.downbeats) else ""
     for name, value in (
         ("song", song.title),
         ("duration", f"{song.duration:.2f} s"),
-        ("tempo", f"{song.tempo:.2f} BPM{_wander(song)}{_folded(song)}" if song.tempo else "no beat heard"),
+        (
+            "tempo",
+            f"{song.tempo:.2f} BPM{_wander(song)}{'' if told else _folded(song)}" if song.tempo else "no beat heard",
+        ),
         ("meter", f"{song.meter} beats a bar"),
         ("beats", str(len(song.beats))),
         ("downbeats", f"{len(song.downbeats)}{first}"),
@@ -167,7 +169,8 @@ def listen_command(
         if path:
             _check_ending(path, endings)
     song = song_path(song)
-    heard = _hear(song, method, start, seconds, flags.corrections())
+    fixes = flags.corrections()
+    heard = _hear(song, method, start, seconds, fixes)
     if output:
         _write(output, heard)
     if click:
@@ -181,4 +184,4 @@ def listen_command(
     if json:
         sys.stdout.write(heard.to_json().decode())
     else:
-        Console().print(_table(heard))
+        Console().print(_table(heard, fixes.tells_tempo))

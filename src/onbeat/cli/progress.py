@@ -12,6 +12,8 @@ from types import TracebackType
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from onbeat.cli.heartbeat import Heartbeat
+
 
 @contextmanager
 def warnings_as_lines() -> Generator[None]:
@@ -25,7 +27,7 @@ def warnings_as_lines() -> Generator[None]:
 
 
 class Stages:
-    """A line of progress for each stage of a job, as it is reached, where stderr is a screen.
+    """A line of progress for each stage of a job, as it is reached, where stderr is a screen; else one now and then.
 
     Called with a stage's name and its share done, 0…1; naming a new stage ends the one before.
 
@@ -33,9 +35,10 @@ class Stages:
     ----------
     parts : how long the stages last against each other, in their order; where told, a line says how far all of the job
         is and how long it will take.
+    passing : whether nothing of it stays on the screen.
     """
 
-    def __init__(self, parts: Mapping[str, float] | None = None) -> None:
+    def __init__(self, parts: Mapping[str, float] | None = None, *, passing: bool = False) -> None:
         edges = list(accumulate((parts or {}).values(), initial=0.0))
         whole = max(edges[-1], 1e-9)
         spans = zip(parts or {}, pairwise(edges), strict=True)
@@ -49,20 +52,26 @@ class Stages:
             TimeRemainingColumn(),
             TextColumn("{task.fields[detail]}", markup=False),  # names of files may look like markup
             console=screen,
+            transient=passing,
             disable=not screen.is_terminal,
         )
+        self._lines = None if screen.is_terminal else Heartbeat()
         self._task: TaskID | None = None
         self._name = ""
 
     def __enter__(self) -> Stages:
         """Begin to draw."""
         self._progress.start()
+        if self._lines:
+            self._lines.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """End the last stage, if all went well."""
+        if self._lines:
+            self._lines.stop()
         if kind is None:
             self._finish()
             if self._all is not None:
@@ -71,6 +80,8 @@ class Stages:
 
     def __call__(self, stage: str, share: float, detail: str = "") -> None:
         """Say that ``share`` of ``stage`` is done, and what of it is done now."""
+        if self._lines:
+            self._lines.say(stage, min(max(share, 0.0), 1.0), detail)
         if stage != self._name:
             self._finish()
             if self._spans and self._all is None:

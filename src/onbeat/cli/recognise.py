@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import cyclopts
 
 from onbeat.cli.keypose_input import NO_BEATS, BeatFlags
 from onbeat.cli.progress import warnings_as_lines
-from onbeat.cli.recognise_input import Cut, read_segments
+from onbeat.cli.recognise_input import Cut, Probe, problem_of, read_usable
 from onbeat.cli.recognise_output import (
     FACTORS,
     VERSION,
@@ -23,6 +24,7 @@ from onbeat.cli.recognise_output import (
 from onbeat.cli.swapped import refuse_swapped_model
 from onbeat.errors import OnbeatError
 from onbeat.recognition.model_file import load_recogniser
+from onbeat.recognition.recogniser import Prediction, Recogniser
 
 recognise_app = cyclopts.App(name="recognise", help="Say which step is danced, and by whom, or that it is new.")
 
@@ -38,7 +40,7 @@ def predict_command(
     stream: Flag = False,
     json: Flag = False,
 ) -> None:
-    """Recognise motions, or labelled stretches of them.
+    """Recognise motions, or labelled stretches of them; files that cannot be used are told and left out.
 
     Example: ``onbeat recognise model.npz unknown.bvh``
 
@@ -70,19 +72,39 @@ def predict_command(
         stream_probe(recogniser, probes[0], flags, span)
         return
     with warnings_as_lines():
-        found, segments = read_segments(probes, flags, cut)
-        predictions = recogniser.predict(segments)
-    pairs = list(zip(found, predictions, strict=True))
+        pairs, problems = _answers(recogniser, probes, flags, cut)
+    for line in problems:
+        print(f"onbeat: left out {line}", file=sys.stderr)  # noqa: T201
     if json:
-        print_json({"version": VERSION, "segments": [row_of(probe, one) for probe, one in pairs]})
+        rows = [row_of(probe, one) for probe, one in pairs]
+        print_json({"version": VERSION, "segments": rows, "problems": problems})
         return
-    rows = [
+    cells = [
         (Path(probe.file).name, f"{probe.start:.2f}", f"{probe.end:.2f}",
          *(told(one, factor) for factor in FACTORS))
         for probe, one in pairs
     ]  # fmt: skip
-    print_table(("file", "from", "to", "task", "person"), rows, ("from", "to"))
-    tell_guesses(recogniser, predictions)
+    print_table(("file", "from", "to", "task", "person"), cells, ("from", "to"))
+    tell_guesses(recogniser, [one for _, one in pairs])
+
+
+def _answers(
+    recogniser: Recogniser, paths: list[Path], flags: BeatFlags, cut: Cut
+) -> tuple[list[tuple[Probe, Prediction]], list[str]]:
+    """What each segment is taken for, and a line for each file that cannot be used; raises if none can."""
+    usable = read_usable(paths, flags, cut)
+    problems = list(usable.problems)
+    taken_for: dict[Probe, Prediction] = {}
+    for read in usable.reads:  # each file by itself: bodies may lack other points
+        try:
+            taken_for |= zip(read.probes, recogniser.predict(read.segments()), strict=True)
+        except OnbeatError as error:
+            problems.append(problem_of(Path(read.probes[0].file), error))
+    if taken_for or not problems:
+        return [(probe, taken_for[probe]) for probe in usable.probes if probe in taken_for], problems
+    if len(problems) == 1:
+        raise OnbeatError(problems[0])
+    raise OnbeatError(f"none of {len(problems)} files can be recognised; {problems[0]}")
 
 
 # Named by path, so that each is imported when it is called; their help stands here, so that a list needs none.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -97,16 +97,66 @@ def read_probes(paths: Sequence[Path], flags: BeatFlags, cut: Cut = WHOLE) -> Re
     shelf = _Shelf(flags)
     found: list[Probe] = []
     with Stages() as stages:
-        for done, path in enumerate(paths):
-            rows = read_labels(path) if path.suffix.lower() == ".csv" else [Label(path, 0.0, float("inf"))]
-            for number, row in enumerate(rows):
-                stages("reading", (done + number / len(rows)) / len(paths), row.file.name)
-                found += shelf.probes(row, cut)
+        for row in _rows(paths, stages):
+            found += shelf.probes(row, cut)
     if not found:
         raise MetricError("nothing to recognise: give label files (.csv) or motion files")
     if cut.usual and cut.span is not None:
         found = _usual(found)
     return Read(found, [shelf.motion(Path(probe.file)) for probe in found])
+
+
+class Usable(NamedTuple):
+    """All probes in their order, the same by motion files, and a line for each file that cannot be used."""
+
+    probes: list[Probe]
+    reads: list[Read]
+    problems: list[str]
+
+
+def read_usable(paths: Sequence[Path], flags: BeatFlags, cut: Cut = WHOLE) -> Usable:
+    """The segments as :func:`read_probes` reads them, of the files that can be read."""
+    cut.checked()
+    shelf = _Shelf(flags)
+    probes: list[Probe] = []
+    problems: list[str] = []
+    with Stages() as stages:
+        for row in _rows(paths, stages, problems):
+            try:
+                probes += shelf.probes(row, cut)
+            except OnbeatError as error:
+                problems.append(problem_of(row.file, error))
+    found: dict[str, list[Probe]] = {}
+    for probe in probes:
+        found.setdefault(probe.file, []).append(probe)
+    reads = [Read(some, [shelf.motion(Path(file))] * len(some)) for file, some in found.items()]
+    return Usable(probes, reads, list(dict.fromkeys(problems)))
+
+
+def problem_of(file: Path, error: OnbeatError) -> str:
+    """What is wrong with a file, with its name before it where the error does not begin with it.
+
+    >>> problem_of(Path("a/b.bvh"), OnbeatError("no head")), problem_of(Path("a/b.bvh"), OnbeatError("b: no head"))
+    ('a/b.bvh: no head', 'b: no head')
+    """
+    said = str(error)
+    named = said.startswith((str(file), file.name, f"{file.stem}:")) or str(file) in said
+    return said if named else f"{file}: {said}"
+
+
+def _rows(paths: Sequence[Path], stages: Stages, problems: list[str] | None = None) -> Iterator[Label]:
+    """All that is to be read, one after the other; a label file that cannot be is told in ``problems``, if given."""
+    for done, path in enumerate(paths):
+        try:
+            rows = read_labels(path) if path.suffix.lower() == ".csv" else [Label(path, 0.0, float("inf"))]
+        except OnbeatError as error:
+            if problems is None:
+                raise
+            problems.append(problem_of(path, error))
+            continue
+        for number, row in enumerate(rows):
+            stages("reading", (done + number / len(rows)) / len(paths), row.file.name)
+            yield row
 
 
 def _usual(found: Sequence[Probe]) -> list[Probe]:

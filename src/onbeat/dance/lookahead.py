@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from onbeat._shapes import Array, Bools, Float32, Ints
 from onbeat.dance.optimal import Problem, seam
 from onbeat.dance.reach import Reach
+from onbeat.dance.too_long import too_long
 from onbeat.errors import PlanError
-from onbeat.moves.graph import GRID
 
 IMPOSSIBLE = -1e30
 
@@ -89,10 +89,7 @@ class Roads:
         found = self.left + 1
         _survival(self.frames, self.hold, self.indptr, self.goal, self.base, self.left, self.entries, found)
         if found.max() < self.frames:
-            raise PlanError(
-                f"the longest dance that this library can give lasts {found.max() / GRID:.1f} s and the song "
-                f"{self.frames / GRID:.1f} s: its clips have too few poses in common; add clips or take fewer --seconds"
-            )
+            raise PlanError(too_long(int(found.max()), self.frames))
         return found
 
     def ahead(self, t: int) -> Bools:

@@ -81,13 +81,14 @@ def make_dance(
     warp: bool = True,
     wishes: Wishes = NO_WISHES,
     intensity_weight: float | None = None,
+    as_told: bool = False,
     step: Step | None = None,
 ) -> Dance:
     """Dance to a song with the moves of a library.
 
     Parameters
     ----------
-    song : as heard by ``onbeat.listen``; its tempo is folded to one that is danced to.
+    song : as heard by ``onbeat.listen``; its tempo is folded to one that is danced to, unless ``as_told``.
     library : clips and the graph that joins them.
     fps : frames per second of the dance; by default those of the library's clips.
     seed : of the random nulls in the metrics, and of the method ``walk``; where a stretch is kept, of what is liked
@@ -97,6 +98,7 @@ def make_dance(
     warp : move stops onto beats by a small time warp.
     wishes : clips never to show or to show rather, stretches of earlier dances to dance again.
     intensity_weight : λ, how much following the music's intensity counts; by default ``score.INTENSITY``.
+    as_told : dance to the beats of the song as they are: somebody has said that they are right.
     step : called with what is done now and the share of all done, 0…1.
 
     Raises
@@ -113,7 +115,7 @@ def make_dance(
     (240, 'optimal')
     """
     say = step or _silent
-    heard, song = song.tempo, _danceable(song)
+    heard, song = song.tempo, danceable(song, as_told)
     fps = max(clip.fps for clip in library.clips) if fps is None else fps
     if not 1.0 <= fps <= 1000.0:
         raise PlanError(f"{fps:g} frames a second cannot be; give a rate from 1 to 1000")
@@ -158,18 +160,25 @@ def _with_wishes(
     return msgspec.structs.replace(document, metrics=metrics, warp=[round(t, 7) for t in warp(even).tolist()])
 
 
-def _danceable(song: Song) -> Song:
+def danceable(song: Song, as_told: bool = False) -> Song:
+    """The song with the beats that are danced to; arguments as of :func:`make_dance`.
+
+    Raises
+    ------
+    PlanError
+        If it is too long for one dance, or has fewer than two beats.
+    """
     if song.duration > LONGEST:
         raise PlanError(
             f"the song lasts {clock(song.duration)}; a dance lasts at most {clock(LONGEST)}: "
             "choose a stretch with --start and --seconds"
         )
-    song = danceable_beats(song)
+    song = song if as_told else danceable_beats(song)
     if len(song.beats) < 2:
         count = "one beat is" if len(song.beats) else "no beat is"
         raise PlanError(
-            f"{count} heard in {song.duration:.1f} s of {song.title or 'the song'}; "
-            "at least 2 are needed: choose another stretch with --start and --seconds"
+            f"{count} heard in {song.duration:.1f} s of {song.title or 'the song'}; at least 2 are needed: choose "
+            "another stretch with --start and --seconds, or say where the beats are with --beats or --tap"
         )
     return song
 

@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from onbeat._shapes import Array, Bools, Float32, Ints
 from onbeat.dance.score import FINE, Frames, Music
 from onbeat.dance.seams import Seams
+from onbeat.dance.too_long import too_long
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID, STRETCH, MotionGraph
 
@@ -258,16 +259,21 @@ class ValueToGo:
         if NEVER / 2 < self.optimum < BARRED / 2:
             raise PlanError(NO_WAY)
         if self.optimum < NEVER / 2:
-            raise PlanError(
-                f"no dance over the joins of this library lasts the song's {self.total / GRID:.1f} s: its clips have "
-                "too few poses in common; add clips or take fewer --seconds"
-            )
+            raise PlanError(too_long(self._longest(), self.total))
 
     def _fill(self, begin: int, ahead: Float32, sums: Array) -> None:
         end, hold = min(begin + self.rows, self.total), self.problem.hold
         self._buffer[end - begin : end - begin + hold] = ahead
         _backward(begin, end, self.total, hold, self._buffer, sums, *self.problem.arrays)
         self._loaded = begin
+
+    def _longest(self) -> int:
+        """Song frames of the longest dance that there is: from so many before the end on, one comes to it."""
+        for t in range(self.total):
+            begin, _, rows = self.stretch(t)
+            if rows[t - begin].max() > NEVER / 2:
+                return self.total - t
+        return 0
 
     def stretch(self, t: int) -> tuple[int, int, Float32]:
         """The stretch that holds song frame t: its begin, its end, and V to ``hold`` rows past its end."""

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from onbeat._shapes import Array, Positions
-from onbeat.formats.conventions import UP_AXES, Convention, Up, z_up_vectors
+from onbeat.formats.conventions import Convention, Up, z_up_vectors
 from onbeat.formats.notes import tell
+from onbeat.formats.upright import bounds, clear_axis, has_floor
 
 _TOP = re.compile(r"head|[lr][fb]hd$|^[lr]hd|ariel|^top|^hd")
 _BELOW_TOP = re.compile(r"shoulder|[lr]sho|^c7$|clav|strn|neck")
@@ -26,6 +27,8 @@ _NAMES = {
     "cm": ("cm", "centimeter", "centimeters", "centimetre", "centimetres"),
     "mm": ("mm", "millimeter", "millimeters", "millimetre", "millimetres"),
     "in": ("in", "inch", "inches"),
+    "dm": ("dm", "decimeter", "decimeters", "decimetre", "decimetres"),
+    "ft": ("ft", "foot", "feet"),
 }
 
 
@@ -61,9 +64,9 @@ def z_up_positions(
     """
     some = _some(raw)
     upright = _head_over_feet(names, some)
-    axis = f"+{up}" if up else _up(some, upright, stored)
+    axis = up or _up(some, upright, stored)
     metres = Convention("z", unit or _unit(some, upright, stored)).metres
-    positions = _turned(raw, axis) * metres
+    positions = z_up_vectors(raw, axis) * metres
     positions.setflags(write=False)
     return positions
 
@@ -72,13 +75,6 @@ def _some(raw: Array) -> Array:
     """A few frames spread over the whole, in which anything is seen."""
     there = np.flatnonzero(np.isfinite(raw[..., 0]).any(1))
     return raw[there[:: max(1, len(there) // _SAMPLES)]]
-
-
-def _turned(positions: Positions, axis: str) -> Positions:
-    """With Z up, from ``axis`` up; a negative one is brought up by half a turn first, so that left stays left."""
-    if axis[0] == "-":
-        positions = positions * (np.array([-1, -1, 1]) if axis[1] == "x" else np.array([1, -1, -1]))
-    return z_up_vectors(positions, next(name for name in UP_AXES if name == axis[1]))
 
 
 def _head_over_feet(names: Sequence[str], some: Positions) -> Array | None:
@@ -101,9 +97,9 @@ def _middle(some: Positions, chosen: list[int]) -> Array:
     return np.where(count > 0, np.where(seen, points, 0.0).sum(1) / np.maximum(count, 1), np.nan)
 
 
-def _up(some: Positions, upright: Array | None, stored: Stored) -> str:
+def _up(some: Positions, upright: Array | None, stored: Stored) -> Up:
     """The axis that is up, told with the reason."""
-    shown, reason = (_clear_axis(upright) if upright is not None else ""), "the head is over the feet along it"
+    shown, reason = (clear_axis(upright) if upright is not None else ""), "the head is over the feet along it"
     if not shown:
         shown, reason = _standing_axis(some), "bodies stand along it, on a floor at its zero"
     if shown and shown == stored.up:
@@ -114,8 +110,9 @@ def _up(some: Positions, upright: Array | None, stored: Stored) -> str:
         taken, why = stored.up, f"the file says so{f', though it may be {shown}: {reason}' if shown else ''}"
     else:
         taken, why = f"+{stored.usual}", "it is usual; neither the file nor what it shows tells"
-    tell("up", taken.removeprefix("+"), why)
-    return taken
+    axis = cast("Up", taken.removeprefix("+"))
+    tell("up", axis, why)
+    return axis
 
 
 def _prevails(some: Positions, shown: str, said: str) -> bool:
@@ -124,46 +121,19 @@ def _prevails(some: Positions, shown: str, said: str) -> bool:
     Where the file says nothing, X up is believed only with a floor: in many files somebody lies, in hardly any X is up.
     """
     if said:
-        return _has_floor(some, shown) and not _has_floor(some, said)
-    return shown[1] != "x" or _has_floor(some, shown)
-
-
-def _clear_axis(rise: Array) -> str:
-    """The axis along which a body rises at least twice as far as along the others, with its sign."""
-    lengths = np.abs(rise)
-    axis = int(np.argmax(lengths))
-    if lengths[axis] <= 2 * np.delete(lengths, axis).max():
-        return ""
-    return ("-" if rise[axis] < 0 else "+") + "xyz"[axis]
-
-
-def _bounds(some: Positions) -> tuple[Array, Array]:
-    """(F, 3) the lowest and the highest coordinates of each frame."""
-    seen = np.isfinite(some)
-    return np.where(seen, some, np.inf).min(1), np.where(seen, some, -np.inf).max(1)
-
-
-def _has_floor(some: Positions, axis: str) -> bool:
-    """Whether the lowest marker along an axis keeps within 8 % of the largest extent, and that within 10 % of zero."""
-    if not len(some):
-        return False
-    low, high = _bounds(some)
-    largest = float(np.median(high - low, axis=0).max())
-    column = "xyz".index(axis[1])
-    lowest = -high[:, column] if axis[0] == "-" else low[:, column]
-    steady = np.ptp(np.quantile(lowest, [0.1, 0.9])) < 0.08 * largest
-    return bool(steady and abs(np.median(lowest)) < 0.1 * largest)
+        return has_floor(some, shown) and not has_floor(some, said)
+    return shown[1] != "x" or has_floor(some, shown)
 
 
 def _standing_axis(some: Positions) -> str:
     """The axis along which bodies are half as long again as along the others, over a floor; nothing where none is."""
     if len(some) < 8:
         return ""
-    low, high = _bounds(some)
+    low, high = bounds(some)
     size = np.median(high - low, axis=0)
     column = int(np.argmax(size))
     axis = "+" + "xyz"[column]
-    return axis if size[column] > 1.5 * np.delete(size, column).max() and _has_floor(some, axis) else ""
+    return axis if size[column] > 1.5 * np.delete(size, column).max() and has_floor(some, axis) else ""
 
 
 def _unit(some: Positions, upright: Array | None, stored: Stored) -> str:

@@ -11,7 +11,8 @@ from onbeat.errors import BodyError, FormatError
 from onbeat.formats.conventions import Up
 from onbeat.formats.notes import tell
 from onbeat.formats.registry import FORMATS, reading
-from onbeat.motion import Markers, Motion, Skeleton
+from onbeat.motion import Body, Markers, Motion, Skeleton
+from onbeat.motion.handedness import MIRRORED, is_mirrored
 from onbeat.motion.role_file import FOLDER_FILE, Roles, read_roles, roles_beside
 from onbeat.motion.roles import find_roles
 
@@ -20,6 +21,10 @@ FAR_OFF_MM = 25.0
 
 class FitWarning(UserWarning):
     """A body was fitted to markers, and something of it was guessed or is far off."""
+
+
+class MirroredWarning(UserWarning):
+    """A body is its own mirror image, as in files of left-handed axes."""
 
 
 def read_file(
@@ -46,6 +51,7 @@ def read_file(
         found = found.replace(skeleton=_told(found.skeleton, told, of_folder=roles is None))
     if "guess" in find_roles(found.skeleton).how.values():
         tell("roles", "guessed", "no names tell arms and legs; the rest pose does")
+    _warn_if_mirrored(found, path)
     return found
 
 
@@ -116,11 +122,21 @@ def fitted(markers: Markers, path: str | os.PathLike[str], roles: Roles | None =
         ask = f"; {len(more)} more to know: `onbeat info {name}`" if more else ""
         warnings.warn(f"{name}: a body was fitted: {summary}{ask}", FitWarning, stacklevel=3)
     # The clip is not cut: its time is that of sound and other cameras. But whoever dances it has to know.
+    _warn_if_mirrored(fit.motion, Path(path), stacklevel=4)
     first, end = fit.trusted
     if (first, end) != (0, len(markers)):
         span = f"{first / markers.fps:.2f} s to {end / markers.fps:.2f} s"
         warnings.warn(f"{name}: only from {span} are half of its markers seen", FitWarning, stacklevel=3)
     return fit
+
+
+def _warn_if_mirrored(motion: Motion, path: Path, stacklevel: int = 3) -> None:
+    try:
+        body = Body.of(motion.skeleton)
+    except BodyError:
+        return
+    if is_mirrored(motion, body):
+        warnings.warn(f"{path.name}: {MIRRORED}", MirroredWarning, stacklevel=stacklevel)
 
 
 def _roles(path: Path, roles: Roles | None) -> Roles | None:

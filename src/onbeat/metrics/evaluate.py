@@ -15,6 +15,9 @@ from onbeat.music.tempo import danceable_beats
 NO_JOINS = np.zeros(0)
 _PLANNED = ("_joins", "_source", "_ratio")  # names of what only the plan of a dance can tell
 
+SOME_CONTACT = 0.1
+"""Part of the frames in which a foot has to bear on the floor, for the speed of feet that do to say something."""
+
 Scores = dict[str, float | None]
 """Of one module: None where a number cannot be had."""
 
@@ -61,10 +64,22 @@ def evaluate_motion(motion: Motion, song: Song, seed: int = 0) -> dict[str, Scor
     scores: dict[str, Scores] = {
         "beats": beats.evaluate(features.body_stops, heard.beats, duration, rng, heard.downbeats),
         "intensity": intensity.evaluate_dance(features, heard, duration),
-        "feet": _unplanned(feet.evaluate(motion, foot_contacts(motion).feet, NO_JOINS)),
+        "feet": _feet(motion),
         "smoothness": _unplanned(smoothness.evaluate(motion, NO_JOINS)),
     }
     return {module: {name: _rounded(value) for name, value in found.items()} for module, found in scores.items()}
+
+
+def _feet(motion: Motion) -> Scores:
+    """Scores of the feet, with ``contact_part``, the part of the frames in which one bears on the floor.
+
+    Where hardly any does, the few moments would make a perfect ``skate``: there is none then.
+    """
+    contacts = foot_contacts(motion).feet
+    scores = _unplanned(feet.evaluate(motion, contacts, NO_JOINS))
+    part = float(contacts.any(axis=1).mean())
+    untold = {name: None for name in scores if name.startswith("skate") and part < SOME_CONTACT}
+    return {"contact_part": part, **scores, **untold}
 
 
 def _rounded(value: float | None) -> float | None:

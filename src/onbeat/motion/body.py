@@ -50,7 +50,7 @@ class Body:
     >>> names = ["hips", "chest", *(s + n for s in "lr" for n in
     ...          ("humerus", "radius", "wrist", "femur", "tibia", "foot"))]
     >>> parents = [-1, 0, 1, 2, 3, 0, 5, 6, 1, 8, 9, 0, 11, 12]
-    >>> body = Body.of(Skeleton(names, parents, np.zeros((14, 3))))
+    >>> body = Body.of(Skeleton(names, parents, np.ones((14, 3))))
     >>> body.skeleton.names[body["left_elbow"]], body.how["left_elbow"]
     ('lradius', 'name')
     """
@@ -67,7 +67,7 @@ class Body:
         ------
         BodyError
             If a needed role is not found; it lists what comes near and how to tell the roles in a file. If roles
-            that are told cannot be a body's: a knee that is not below its hip.
+            that are told cannot be a body's: a knee that is not below its hip. If an arm or a leg has no length.
         """
         joints, how = find_roles(skeleton)
         if skeleton.roles:
@@ -75,6 +75,7 @@ class Body:
         missing = [role for role in NEEDED if role not in joints]
         if missing:
             raise BodyError(_missing(skeleton, missing))
+        _check_lengths(skeleton, joints)
         return cls(skeleton, joints, how)
 
     def __getitem__(self, role: str) -> int:
@@ -141,6 +142,19 @@ def _check_told(skeleton: Skeleton, joints: Mapping[str, int]) -> None:
                     )
 
 
+def _check_lengths(skeleton: Skeleton, joints: Mapping[str, int]) -> None:
+    """Raise a ``BodyError`` where arms or legs have no length, as in files whose bones are all zero."""
+    lines = {f"{side} {limb}": core_roles(limb, side) for limb in LIMBS for side in ("left", "right")}
+    lengths = {limb: chain_length(skeleton, joints[top], joints[end]) for limb, (top, _, end) in lines.items()}
+    without = [limb for limb, length in lengths.items() if not length > 0]
+    if without:
+        which = "arms and legs" if len(without) == len(lines) else " and the ".join(without)
+        raise BodyError(
+            f"the {which} {'have' if without[1:] else 'has'} no length, so a body cannot be told; "
+            "export the motion again with the lengths of its bones"
+        )
+
+
 def body_frames(motion: Motion, body: Body | None = None) -> tuple[Rotations, Positions]:
     """The body-centre frame of each frame (Shiratori 2006, Sec. II-A).
 
@@ -162,10 +176,24 @@ def body_frames(motion: Motion, body: Body | None = None) -> tuple[Rotations, Po
 
 
 def frames_from(up: Positions, across: Positions) -> Rotations:
-    """Frames (..., 4) whose z is ``up`` and whose x is the part of ``across`` square to it."""
-    z = up / np.maximum(np.linalg.norm(up, axis=-1, keepdims=True), 1e-9)
+    """Frames (..., 4) whose z is ``up`` and whose x is the part of ``across`` square to it.
+
+    Raises
+    ------
+    BodyError
+        If a frame has no such directions: the body has no trunk, or its left and right are in one place.
+    """
+    tall = np.linalg.norm(up, axis=-1, keepdims=True)
+    z = up / np.maximum(tall, 1e-9)
     x = across - z * np.sum(z * across, axis=-1, keepdims=True)
-    x = x / np.maximum(np.linalg.norm(x, axis=-1, keepdims=True), 1e-9)
+    wide = np.linalg.norm(x, axis=-1, keepdims=True)
+    # What is left of directions that are the same is rounding, of the size of the numbers.
+    if not (np.minimum(tall, wide) > 1e-9 + 1e-12 * np.abs(across).max(initial=0.0)).all():
+        raise BodyError(
+            "the hips and shoulders are in one place or one line, so that left and right of the body cannot be told; "
+            "export the motion again with the lengths of its bones"
+        )
+    x = x / wide
     return rot.from_matrix(np.stack((x, np.cross(z, x), z), axis=-1))
 
 

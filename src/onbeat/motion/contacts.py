@@ -1,8 +1,9 @@
 """When each foot stands on the floor.
 
 A point of the foot (toe or ankle) touches while it is both slow and low. The floor is found in each clip, so that a
-capture whose floor is a few centimetres off is read right. All thresholds are in metres and seconds: the same clip at
-30, 60 or 120 frames per second gives the same contacts.
+capture whose floor is a few centimetres off is read right; frames in which the feet leap elsewhere and back, as lost
+ones do, have no say in it. All thresholds are in metres and seconds: the same clip at 30, 60 or 120 frames per second
+gives the same contacts.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from scipy.ndimage import gaussian_filter1d, label
 from onbeat._shapes import Array, Bools, Positions, Rotations
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
+from onbeat.motion.leaps import LEAP, frames_to_use, leap_speeds
 from onbeat.motion.motion import Motion
+from onbeat.motion.runs import runs as runs  # asked for here by most who read contacts
 
 SIDES = ("left", "right")
 SMOOTHING = 0.025
@@ -24,10 +27,14 @@ SLOW, SLOWER = 0.55, 0.3
 """m/s: a contact lasts while the point is slower than the first, if it is ever slower than the second."""
 LOW, LOWER = 0.07, 0.04
 """Metres above the floor: a contact lasts while the point is under the first, if it is ever under the second."""
+UNDER = 0.15
+"""Metres: nothing rests further than this under the floor."""
 SHORTEST = 0.1
 """Seconds: shorter contacts are none, and shorter gaps inside one are filled."""
 FLOOR_PERCENTILE = 2.0
 """Part (%) of the heights of a point that may lie under its floor."""
+GOOD = 0.5
+"""Part of the frames that must be free of leaps for the others to be left out."""
 
 
 @dataclass(frozen=True)
@@ -75,9 +82,12 @@ def resting(paths: Positions, fps: float) -> tuple[Bools, float]:
     (True, 0.0)
     """
     heights = paths[..., 2]
-    floor = float(np.percentile(heights, FLOOR_PERCENTILE, axis=0).min())
+    leaps = np.asarray((leap_speeds(paths, fps) > LEAP).any(axis=1))
+    good = frames_to_use(paths, fps, leaps)
+    good |= good.mean() < GOOD  # of noise alone nothing can be told apart
+    floor = float(np.percentile(heights[good], FLOOR_PERCENTILE, axis=0).min())
     speeds = point_speeds(paths, fps)
-    loose = (speeds < SLOW) & (heights < floor + LOW)
+    loose = (speeds < SLOW) & (heights < floor + LOW) & (heights > floor - UNDER)
     tight = (speeds < SLOWER) & (heights < floor + LOWER)
     rests = np.stack([_settled(loose[:, p], tight[:, p], fps) for p in range(paths.shape[1])], axis=1)
     return rests, floor
@@ -89,18 +99,6 @@ def point_speeds(paths: Positions, fps: float) -> Array:
         return np.zeros(paths.shape[:-1])
     smooth = gaussian_filter1d(paths, SMOOTHING * fps, axis=0, mode="nearest")
     return np.linalg.norm(np.gradient(smooth, axis=0), axis=-1) * fps
-
-
-def runs(mask: Bools) -> list[tuple[int, int]]:
-    """First frame and frame after the last of each stretch of true frames.
-
-    Examples
-    --------
-    >>> runs(np.array([True, False, True, True]))
-    [(0, 1), (2, 4)]
-    """
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], mask, [False])).astype(np.int8)))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def twist(a: Rotations, b: Rotations) -> float:

@@ -12,13 +12,17 @@ import numpy as np
 
 from onbeat._shapes import Array, Bools
 from onbeat.errors import BodyError
+from onbeat.motion import leaps
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body
 from onbeat.motion.contacts import foot_contacts, point_speeds
 from onbeat.motion.edit import stature
 from onbeat.motion.floor import is_on_floor
+from onbeat.motion.handedness import MIRRORED, is_mirrored
+from onbeat.motion.held import held_poses
+from onbeat.motion.leaps import body_leaps, leaping_joints
 from onbeat.motion.motion import Motion
-from onbeat.motion.retarget import floor_height
+from onbeat.motion.retarget import feet_in_air, floor_height
 
 FLIP = np.radians(60)
 """Radians from one frame to the next, and not on: at dancers' 15 rad/s a joint turns 30° in a frame of 1/30 s."""
@@ -30,8 +34,10 @@ STILL = 0.5
 """Seconds without any change in the last bit: nobody stands so."""
 SKATE = 0.15
 """m/s (mean) of feet that rest."""
-SIZES, LEGS = (0.3, 2.5), (0.42, 1.3)
-"""Metres of bodies, and of their legs from hip to ankle, that need no explanation, children and robots included."""
+FIXED, STEPS = 0.005, 0.1
+"""Metres: hips that never leave the first while feet go over the second have lost their path."""
+SIZES, LEGS = (0.3, 2.5), (0.48, 1.1)
+"""Metres of bodies, and of their legs from hip to ankle, that need no explanation: of 1.0 to 2.3 m, lying ones too."""
 
 
 def problems(motion: Motion) -> list[str]:
@@ -45,17 +51,18 @@ def problems(motion: Motion) -> list[str]:
     >>> problems(Motion(rod, q, np.zeros((60, 3)), fps=30))[0]
     'frames 0–59 are exactly alike (2.00 s): the capture stopped, or frames were filled in'
     """
-    found = [*_leaps(motion), *_flips(motion), *_still(motion), *_rest_first(motion), *_repeats(motion)]
+    found = [*_leaps(motion), *_flips(motion), *_still(motion), *_held(motion), *_repeats(motion)]
     try:
         body = Body.of(motion.skeleton)
     except BodyError as error:
         return [*found, *_size(motion, None), *_stretching(motion), str(error).split(";")[0]]
-    found += [*_size(motion, body), *_stretching(motion)]
-    return [*found, *_floor(motion, body), *_feet(motion, body), *_sides(body)]
+    found = [*_joint_leaps(motion, body), *found, *_size(motion, body), *_stretching(motion)]
+    found += [said for said in (in_place(motion, body),) if said]
+    return [*found, *_floor(motion, body), *_feet(motion, body), *_sides(body), *_turned(motion, body)]
 
 
 def _leaps(motion: Motion) -> Iterator[str]:
-    speed = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
+    speed = _without_held(motion, np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps)
     fast = np.flatnonzero(speed > LEAP)
     if len(fast):
         yield (
@@ -64,10 +71,32 @@ def _leaps(motion: Motion) -> Iterator[str]:
         )
 
 
+def _without_held(motion: Motion, values: Array) -> Array:
+    """Values from frame to frame (F − 1, …) that are 0 where a pose of reference is left or entered."""
+    held = held_poses(motion)
+    values[: held.first] = 0.0
+    values[len(values) - held.last :] = 0.0
+    return values
+
+
+def _joint_leaps(motion: Motion, body: Body) -> Iterator[str]:
+    """Joints that leap where the root does not; what libraries leave out (see ``leaps``)."""
+    speeds = body_leaps(motion, body)
+    root = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps > LEAP
+    speeds[np.convolve(root, np.ones(5), "same") > 0] = 0.0  # a root that leaps was told already
+    frames = np.flatnonzero((speeds > leaps.LEAP).any(axis=1))
+    if len(frames):
+        at = int(speeds.max(axis=1).argmax())
+        joint = motion.skeleton.names[leaping_joints(body)[int(speeds[at].argmax())]]
+        yield (
+            f"{joint} leaps at {len(frames)} frame{'s' * (len(frames) > 1)}, furthest between {at} and {at + 1} "
+            f"({speeds[at].max():.0f} m/s faster than just before and after): noise of the capture"
+        )
+
+
 def _flips(motion: Motion) -> Iterator[str]:
     """Joints that turn in one frame further than anybody can, named with how often."""
-    turn = rot.angle_between(motion.rotations[:-1], motion.rotations[1:])
-    turn[:1] *= not any(_rest_first(motion))
+    turn = _without_held(motion, rot.angle_between(motion.rotations[:-1], motion.rotations[1:]))
     flips = (turn > FLIP) & (turn * motion.fps > FLIP_SPEED)
     frames, joints = np.nonzero(flips)
     if len(frames):
@@ -84,7 +113,10 @@ def _unchanged(motion: Motion) -> Bools:
 
 def _still(motion: Motion) -> Iterator[str]:
     at, longest, first = 0, 0, 0
-    for equal, run in itertools.groupby(_unchanged(motion).tolist()):
+    held = held_poses(motion)
+    same = _unchanged(motion)[: len(motion) - 1 - held.last]
+    same[: held.first] = False
+    for equal, run in itertools.groupby(same.tolist()):
         length = sum(1 for _ in run)
         if equal and length > longest:
             longest, first = length, at
@@ -109,17 +141,23 @@ def _repeats(motion: Motion) -> Iterator[str]:
         )
 
 
-def _rest_first(motion: Motion) -> Iterator[str]:
-    """A pose of reference in front, as many exporters put it: several joints turn far after frame 0, and not again."""
-    if len(motion) < 3:
-        return
-    turned = rot.angle_between(motion.rotations[:2], motion.rotations[1:3])
-    far = (turned > np.radians(15)) & (turned * motion.fps > FLIP_SPEED / 2)
-    if far[0].sum() >= 3 > far[1].sum():
+def _held(motion: Motion) -> Iterator[str]:
+    held, fps = held_poses(motion), motion.fps
+    if held.first:
         yield (
-            "frame 0 is a pose by itself (of reference, as a T-pose) and no part of the movement; leave it out "
-            f"(`onbeat convert --start {1 / motion.fps:.4g}`)"
+            f"{_frames(0, held.first)} a pose by itself (of reference, as a T-pose) and no part of the movement; leave "
+            f"it out (`onbeat convert --start {held.first / fps:.4g}`)"
         )
+    if held.last:
+        end = len(motion) - held.last
+        yield (
+            f"{_frames(end, len(motion))} a pose by itself (of reference, as a T-pose) and no part of the movement; "
+            f"leave it out (`onbeat convert --end {end / fps:.4g}`)"
+        )
+
+
+def _frames(first: int, end: int) -> str:
+    return f"frame {first} is" if end - first == 1 else f"frames {first}–{end - 1} are"
 
 
 def odd_size(motion: Motion, body: Body | None) -> str:
@@ -165,7 +203,34 @@ def _stretching(motion: Motion) -> Iterator[str]:
         )
 
 
+def in_place(motion: Motion, body: Body) -> str:
+    """Words on a motion whose path is missing, so that the feet move and the hips never do; none ("") of another.
+
+    Parameters
+    ----------
+    motion : metres, Z up.
+    body : its roles.
+
+    Examples
+    --------
+    >>> from onbeat.examples import embedded_motions
+    >>> dance = embedded_motions()[0]
+    >>> in_place(dance, Body.of(dance.skeleton))
+    ''
+    """
+    hips, feet = (motion.positions[:, body.indices(*r)] for r in (("hips",), ("left_ankle", "right_ankle")))
+    if np.ptp(hips, axis=0).max() > FIXED or np.ptp(feet, axis=0).max() < STEPS:
+        return ""
+    return "the hips never move, though the feet do: the motion was exported in place, without its path; export it anew"
+
+
 def _floor(motion: Motion, body: Body) -> Iterator[str]:
+    if feet_in_air(motion, body):
+        yield (
+            "the feet are in the air all along (who lies, or stands on the hands?) and tell of no floor; the lowest "
+            f"joint rests at {floor_height(motion, body):+.2f} m"
+        )
+        return
     if not is_on_floor(motion, body):
         yield f"feet stand at {floor_height(motion, body):+.2f} m (`onbeat convert --ground` puts them on 0)"
 
@@ -173,8 +238,22 @@ def _floor(motion: Motion, body: Body) -> Iterator[str]:
 def _feet(motion: Motion, body: Body) -> Iterator[str]:
     contacts = foot_contacts(motion, body).feet
     feet = motion.positions[:, body.indices("left_ankle", "right_ankle")]
-    if contacts.any() and (speed := float(point_speeds(feet, motion.fps)[contacts].mean())) > SKATE:
+    if (
+        contacts.any()
+        and not feet_in_air(motion, body)
+        and (speed := float(point_speeds(feet, motion.fps)[contacts].mean())) > SKATE
+    ):
         yield f"feet slide while they stand ({speed:.2f} m/s on average)"
+
+
+def _turned(motion: Motion, body: Body) -> Iterator[str]:
+    """A body that is mirrored, or upside down nearly throughout: the axes of its file are others than was thought."""
+    if is_mirrored(motion, body):
+        yield MIRRORED
+    top = motion.positions[:, body["head"] if "head" in body else body["chest"], 2]
+    feet = motion.positions[:, body.indices("left_ankle", "right_ankle"), 2]
+    if (top < feet.min(1) - body.leg_length / 2).mean() > 0.9:
+        yield "the head is under the feet nearly throughout: is the up axis right? (`--source-up`)"
 
 
 def _sides(body: Body) -> Iterator[str]:

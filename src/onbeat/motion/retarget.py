@@ -10,10 +10,11 @@ along the source's. Feet keep their own pitch, for both stand flat in their refe
 from __future__ import annotations
 
 import itertools
+from typing import NamedTuple
 
 import numpy as np
 
-from onbeat._shapes import Array, Positions, Rotations
+from onbeat._shapes import Array, Bools, Positions, Rotations
 from onbeat.errors import BodyError
 from onbeat.motion import rotations as rot
 from onbeat.motion.body import Body, ancestors, facing, frames_from
@@ -26,8 +27,12 @@ _LIMBS = {"shoulder": "elbow", "elbow": "wrist", "wrist": "hand", "hip": "knee",
 _ABOVE = {"wrist": "elbow", "hand": "wrist", "toe": "ankle", "head": "neck", "neck": "chest", "spine": "hips"}
 _TRUNK = ("hips", "spine", "chest", "neck", "head")
 NEAR_FLOOR = 0.03
-SLOW = 0.25  # m/s under which the lowest joint of a foot stands
 """Metres of floor height that are left alone: joints of a foot are above its sole by as much."""
+SLOW = 0.25  # m/s under which the lowest joint of a foot stands
+AIR = 0.15
+"""Metres by which feet are above another joint that are in the air."""
+FEW = 0.05
+"""Part of the frames in which feet have to stand."""
 
 
 def retarget(motion: Motion, skeleton: Skeleton, reference: Motion | None = None) -> Motion:
@@ -72,24 +77,58 @@ def grounded(motion: Motion, body: Body | None = None, near: float = NEAR_FLOOR)
 
 
 def floor_height(motion: Motion, body: Body | None = None) -> float:
-    """Metres, the height on which the feet stand.
+    """Metres, the height on which the feet stand, or on which the body lies whose feet never do.
 
     The median height of the feet's lowest joint over the frames in which that joint hardly moves (slower than
-    ``SLOW`` m/s); the 5th percentile over all frames where there is no such moment. A few dips under the floor, common
-    in captured motion, and time spent in the air do not move it.
+    ``SLOW`` m/s) and no joint is far below it; the 5th percentile over all frames where there is no such moment. A few
+    dips under the floor, common in captured motion, and time spent in the air do not move it. Where the feet are in
+    the air all along (:func:`feet_in_air`) it is the same of the lowest joint of the body.
     """
     body = Body.of(motion.skeleton) if body is None else body
-    ankles = set(body.indices("left_ankle", "right_ankle").tolist())
-    tree = Tree.of(motion.skeleton)
-    feet = [j for j in range(len(motion.skeleton)) if any(j == ankle or tree.above(ankle, j) for ankle in ankles)]
-    points = motion.positions[:, feet]
-    lowest = points[..., 2].argmin(axis=1)
-    height = points[np.arange(len(motion)), lowest, 2]
+    feet = _Lowest.of(motion, _feet(body))
     if len(motion) < 3:
-        return float(height.min())
-    speeds = np.linalg.norm(np.gradient(points, axis=0), axis=-1)[np.arange(len(motion)), lowest] * motion.fps
-    standing = speeds < SLOW
-    return float(np.median(height[standing])) if standing.mean() > 0.05 else float(np.percentile(height, 5))
+        return float(feet.heights.min())
+    low = _Lowest.of(motion, sorted(body.joints.values()))
+    chosen, standing = feet, feet.slow & (feet.heights - low.heights < AIR)
+    if _never_stand(feet, low):
+        chosen, standing = low, low.slow
+    heights = chosen.heights
+    return float(np.median(heights[standing])) if standing.mean() > FEW else float(np.percentile(heights, 5))
+
+
+def feet_in_air(motion: Motion, body: Body | None = None) -> bool:
+    """Whether the body never stands on its feet, and other joints are far below them: it lies, or is on its hands."""
+    body = Body.of(motion.skeleton) if body is None else body
+    return _never_stand(_Lowest.of(motion, _feet(body)), _Lowest.of(motion, sorted(body.joints.values())))
+
+
+class _Lowest(NamedTuple):
+    """Of some joints the height of the lowest one in each frame (F,), and whether that one hardly moves (F,)."""
+
+    heights: Array
+    slow: Bools
+
+    @classmethod
+    def of(cls, motion: Motion, joints: list[int]) -> _Lowest:
+        points = motion.positions[:, joints]
+        lowest = points[..., 2].argmin(axis=1)
+        frames = np.arange(len(motion))
+        if len(motion) < 3:
+            return cls(points[frames, lowest, 2], np.ones(len(motion), np.bool_))
+        speeds = np.linalg.norm(np.gradient(points, axis=0), axis=-1)[frames, lowest] * motion.fps
+        return cls(points[frames, lowest, 2], speeds < SLOW)
+
+
+def _feet(body: Body) -> list[int]:
+    """The ankles and all joints that they turn."""
+    ankles = set(body.indices("left_ankle", "right_ankle").tolist())
+    tree = Tree.of(body.skeleton)
+    return [j for j in range(len(body.skeleton)) if any(j == ankle or tree.above(ankle, j) for ankle in ankles)]
+
+
+def _never_stand(feet: _Lowest, low: _Lowest) -> bool:
+    above = feet.heights - low.heights >= AIR
+    return bool(above.mean() > 0.5 and (feet.slow & ~above).mean() <= FEW)
 
 
 def stands_in_rest(body: Body) -> bool:

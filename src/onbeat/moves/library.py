@@ -37,7 +37,7 @@ class Clip:
     ----------
     motion : on the library's skeleton, at ``CLIP_RATE`` at most.
     name : for people and plans.
-    source : number of the recording; a mirrored clip shares its original's.
+    source : number of the recording, or of the stretch of one; a mirrored clip shares its original's.
     mirrored : whether it is a mirror image.
     stops : seconds of the body's stops.
     intensity : (n,) Eq. 2 at each graph frame, m/s.

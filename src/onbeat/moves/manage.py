@@ -8,7 +8,6 @@ from pathlib import Path
 
 import msgspec
 
-from onbeat._shapes import Float32
 from onbeat.errors import LibraryError
 from onbeat.moves.build import opened_stock
 from onbeat.moves.disk.index import INDEX, reading
@@ -20,7 +19,7 @@ from onbeat.moves.making.generations import Entry
 from onbeat.moves.making.placing import Reading
 from onbeat.moves.making.publish import Draft, Step, publish, rising
 from onbeat.moves.making.stock import PAIR, SHARDS, Row, Stock, select_clips
-from onbeat.moves.making.twins import find_twins
+from onbeat.moves.making.taken import twin_recordings
 from onbeat.moves.store import Stored, is_library, open_library, read_stored
 
 COMPARED = 0.05  # share of a merger's time at which takes are compared
@@ -129,8 +128,7 @@ def _draft(stock: Stock, folders: Sequence[Path], stored: Sequence[Stored], step
             entries.append(entry)
         for number, _ in one.generation.members:
             if entries[first + number].problem is None:
-                found = stock.clips_of(entries[first + number].content, one.generation.stage)
-                rows[first + number] = [found[kind] for kind in sorted(found)]
+                rows[first + number] = stock.clips_of(entries[first + number].content, one.generation.stage)
     _leave_out_twins(stock, entries, rows, lambda share: step("comparing takes", COMPARED * share))
     new = stored[0].generation
     members = [(n, row) for n, found in rows.items() for row in found]
@@ -141,17 +139,10 @@ def _draft(stock: Stock, folders: Sequence[Path], stored: Sequence[Stored], step
 def _leave_out_twins(
     stock: Stock, entries: list[Entry], rows: dict[int, list[Row]], step: Callable[[float], None]
 ) -> None:
-    numbers = list(rows)
-
-    def poses(clip: int) -> Float32:
-        row = rows[numbers[clip]][0]
-        return row.shape.split(stock.clips.read(row.span))["poses"]
-
-    twins = find_twins([rows[n][0].shape.poses for n in numbers], poses, step)
-    for later, earlier in twins.items():
-        told = f"moves as {entries[numbers[earlier]].name} does, all along"
-        entries[numbers[later]] = entries[numbers[later]]._replace(problem=told)
-        del rows[numbers[later]]
+    for later, earlier in twin_recordings(stock, rows, step).items():
+        told = f"moves as {entries[earlier].name} does, all along"
+        entries[later] = entries[later]._replace(problem=told)
+        del rows[later]
 
 
 def _unique(entries: Sequence[Entry], folders: Sequence[Path], stored: Sequence[Stored]) -> list[Entry]:

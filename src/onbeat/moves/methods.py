@@ -10,14 +10,14 @@ from pathlib import Path
 _ROOT = Path(__file__).parents[1]
 _READING = (
     *("formats/*.py", "formats/*/*.py", "motion/*.py", "keyposes/*.py", "moves/disk/layout.py"),
-    *(f"moves/making/{name}.py" for name in ("clips", "placing")),
+    *(f"moves/making/{name}.py" for name in ("clips", "placing", "stretches")),
     *(f"moves/{name}.py" for name in ("graph", "lazy", "library", "poses", "recordings")),
 )
 _JOINING = (
     *("moves/pairs/*.py", "moves/similarity.py", "moves/library.py"),
     *(f"moves/making/{name}.py" for name in ("groups", "joining")),
 )
-_REST = ("moves/graph.py", *(f"moves/making/{name}.py" for name in ("compose", "publish", "steps", "twins")))
+_REST = ("moves/graph.py", *(f"moves/making/{name}.py" for name in ("compose", "publish", "steps", "taken", "twins")))
 
 
 @cache

@@ -100,25 +100,26 @@ def library_of(stored: Stored, shards: Shards, graph: MotionGraph) -> MoveLibrar
 
 def _clips(stored: Stored, shards: Shards) -> list[Clip]:
     skeleton = skeleton_of(stored.generation.skeleton)
-    sources = _sources(stored.generation)
+    sources = _sources(stored)
     clips: list[Clip] = []
-    originals: dict[int, Clip] = {}
+    originals: dict[str, Clip] = {}
     for (number, _), row in zip(stored.generation.members, stored.rows, strict=True):
         entry = stored.generation.entries[number]
-        name = entry.name
+        name = entry.name + row.stretch.suffix
         if row.shape.joints != len(skeleton):
             raise LibraryError(f"the library is damaged ({name} has {row.shape.joints} joints); build it again")
-        original = originals.get(number) if row.shape.mirrored else None
+        original = originals.get(row.content) if row.shape.mirrored else None
         if row.shape.mirrored and original is None:
             raise LibraryError(f"the library is damaged ({name} has no original); build the library again")
         name += MIRROR_SUFFIX if row.shape.mirrored else ""
-        label = Label(name, sources[number], About(entry.performer, entry.genre, entry.licence))
+        label = Label(name, sources[number, row.content], About(entry.performer, entry.genre, entry.licence))
         clip = stored_clip(shards, row.span, row.shape, skeleton, label, original)
-        originals[number] = originals.get(number, clip)
+        originals.setdefault(row.content, clip)
         clips.append(clip)
     return clips
 
 
-def _sources(generation: Generation) -> dict[int, int]:
-    """For each recording that clips were made of, which it is among these."""
-    return {number: source for source, number in enumerate(dict.fromkeys(n for n, _ in generation.members))}
+def _sources(stored: Stored) -> dict[tuple[int, str], int]:
+    """For each stretch of a recording that clips were made of, which it is among these."""
+    stretches = [(n, row.content) for (n, _), row in zip(stored.generation.members, stored.rows, strict=True)]
+    return {stretch: source for source, stretch in enumerate(dict.fromkeys(stretches))}

@@ -1,7 +1,7 @@
 """Reading sound: any file, any rate, any number of channels, in blocks, so that hours of it fit in memory.
 
 Wave, FLAC, Ogg and MP3 are read by libsndfile; M4A and the sound of videos by PyAV, an extra. Samples are
-mixed down to mono by the mean of the channels and resampled as they stream by.
+mixed down to mono and resampled as they stream by.
 """
 
 from __future__ import annotations
@@ -20,15 +20,19 @@ import soxr
 from onbeat._shapes import Float32
 from onbeat.errors import AudioError
 from onbeat.music.containers import PACKED, ContainerSource
+from onbeat.music.mono import Mono
+from onbeat.music.promised import promised_share
+from onbeat.music.undertone import unheard
 
 RATE = 22050  # [Hz], enough for beats and harmony
 BLOCK_SECONDS = 20.0
 PART = 8192  # samples decoded at once: what a break in the data costs
+NEAR_END = 0.1  # seconds before the end of a file from which on a stretch is meant to reach it
 USABLE_SECONDS = 1.0  # of a damaged file, below which nothing is worth using
 
 
 class AudioWarning(UserWarning):
-    """A file that is damaged, of which the readable part is used."""
+    """A file that is damaged or odd, of which what is of use is used."""
 
 
 @dataclass(frozen=True)
@@ -63,15 +67,16 @@ class _FileSource:
 
     def __init__(self, path: Path) -> None:
         try:
-            self._file = _Stream(_encodable(path))
+            with unheard():
+                self._file = _Stream(_encodable(path))
         except (soundfile.LibsndfileError, RuntimeError, TypeError) as error:
-            reason = str(getattr(error, "error_string", error)).rstrip(".")
             raise AudioError(
-                f"{path}: not a sound file that can be read ({reason}); expected wav, flac, ogg or mp3"
+                f"{path}: not a sound file that can be read ({_reason(error)}); expected wav, flac, ogg or mp3"
             ) from None
         self.rate: int = self._file.samplerate
         self.channels: int = self._file.channels
         self.duration = self._file.frames / self.rate
+        self.promised = self.duration * promised_share(path)
 
     def blocks(self, start: float, frames: int) -> Iterator[Float32]:
         """Blocks of about ``frames`` samples from ``start`` seconds on; raises RuntimeError where the data break."""
@@ -92,9 +97,20 @@ class _FileSource:
     def _parts(self, start: float) -> Iterator[Float32]:
         with self._file as file:
             if start > 0.0:
-                file.seek(min(round(start * self.rate), file.frames))
-            while len(part := file.read(PART, dtype="float32", always_2d=True)):
-                yield np.asarray(part, dtype=np.float32)
+                with unheard():
+                    file.seek(min(round(start * self.rate), file.frames))
+            while len(part := self._part()):
+                yield part
+
+    def _part(self) -> Float32:
+        with unheard():
+            return np.asarray(self._file.read(PART, dtype="float32", always_2d=True), dtype=np.float32)
+
+
+def _reason(error: Exception) -> str:
+    """Why libsndfile cannot open a file that is there; where it says that it is not, its content is no sound."""
+    reason = str(getattr(error, "error_string", error)).rstrip(".")
+    return "there is no sound in it" if reason.startswith("File does not exist") else reason
 
 
 def _encodable(path: Path) -> Any:
@@ -146,6 +162,8 @@ def native_blocks(
     expected = max(source.duration - start, 0.0)
     wanted = round((expected if seconds is None else min(seconds, expected)) * source.rate)
     left = wanted if seconds is not None else np.iinfo(np.int64).max
+    to_end = seconds is None or start + seconds > source.duration - NEAR_END
+    whole = wanted + (round((source.promised - source.duration) * source.rate) if to_end else 0)
     read = 0
     blocks = source.blocks(start, round(BLOCK_SECONDS * source.rate))
     try:
@@ -163,8 +181,8 @@ def native_blocks(
         return
     if read == 0:
         raise AudioError(f"{path}: holds no sound (0 samples); expected a song")
-    if read < 0.98 * wanted - source.rate:
-        _usable(path, read / source.rate, wanted / source.rate, "the data end early")
+    if read < 0.98 * whole - source.rate:
+        _usable(path, read / source.rate, whole / source.rate, "the data end early")
 
 
 def read_blocks(
@@ -172,14 +190,17 @@ def read_blocks(
 ) -> Iterator[Float32]:
     """Mono blocks (N,) float32 at ``rate``, one after the other; only one is in memory at a time.
 
+    They are the mean of the channels; where these cancel each other out, one of them, which is warned of.
+
     Raises
     ------
     AudioError
         If the file is missing, a folder, empty, not sound, or holds samples that are not numbers.
     """
     stream: soxr.ResampleStream | None = None
+    mix = Mono()
     for block, native in native_blocks(path, start, seconds):
-        mono = np.ascontiguousarray(block.mean(axis=1, dtype=np.float32))
+        mono = mix(block)
         if native == rate:
             yield mono
             continue
@@ -188,6 +209,13 @@ def read_blocks(
             yield resampled
     if stream is not None and len(rest := stream.resample_chunk(np.zeros(0, np.float32), last=True)):
         yield rest
+    if mix.one is not None:
+        warnings.warn(
+            f"{path}: its channels cancel each other out, as where one is the other upside down: "
+            f"channel {mix.one + 1} is heard alone",
+            AudioWarning,
+            stacklevel=2,
+        )
 
 
 def read_audio(

@@ -43,6 +43,7 @@ class ContainerSource:
         self.duration = (
             float(length * self._stream.time_base) if length else (self._container.duration or 0) / self._av.time_base
         )
+        self.promised = self.duration
 
     def _decoded(self) -> Iterator[Float32]:
         """Decoded frames (N, channels) from the beginning; what is broken ends the iteration as RuntimeError."""

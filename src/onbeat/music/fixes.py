@@ -40,6 +40,11 @@ class Corrections:
         if self.meter is not None and self.meter not in METERS:
             raise AudioError(f"meter {self.meter}: expected {METERS.start} to {METERS.stop - 1} beats in a bar")
 
+    @property
+    def tells_tempo(self) -> bool:
+        """Whether they say how fast the beats are, rather than only where the bars begin."""
+        return self.beats is not None or self.taps is not None or self.tempo is not None
+
     def __bool__(self) -> bool:
         """Whether there is anything to put right."""
         return self != Corrections()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 _SAID = (
+    (r"say where the beats are with --beats or --tap", "put its beats in on the song's page"),
     (r"choose (a|another) stretch(?: of it)? with --start and --seconds", r"choose \1 stretch of the song"),
-    (r"take fewer --seconds", "dance to fewer seconds"),
+    (r"dance to ([0-9.]+) --seconds at most", r"dance to \1 seconds at most"),
     (r"play the plan as it is with --no-warp", "choose another stretch of the song or other moves"),
     (r"say it with --source-fps", "where that is wrong, say it on the motion's page"),
     (r"say it with --[^;\n)]*(?:\([^)]*\))?", "where that is wrong, save the file at that rate and drop it again"),
@@ -26,8 +27,10 @@ def here(text: str) -> str:
 
     Examples
     --------
-    >>> here("no beat is heard in 2.0 s; at least 2 are needed: choose another stretch with --start and --seconds")
-    'no beat is heard in 2.0 s; at least 2 are needed: choose another stretch of the song'
+    >>> here("no beat is heard: choose another stretch with --start and --seconds")
+    'no beat is heard: choose another stretch of the song'
+    >>> here("or say where the beats are with --beats or --tap")
+    "or put its beats in on the song's page"
     >>> here("feet stand at +0.20 m (`onbeat convert --ground` puts them on 0)")
     'feet stand at +0.20 m'
     """

@@ -12,6 +12,7 @@ import numpy as np
 from onbeat._shapes import Times
 from onbeat.errors import BodyError, OnbeatError, PlanError
 from onbeat.files import write_atomically
+from onbeat.formats.body_size import UnitWarning
 from onbeat.formats.notes import Note, noted
 from onbeat.formats.rates import ASK, RateWarning
 from onbeat.formats.read import read_motion
@@ -20,6 +21,7 @@ from onbeat.keyposes.motion_tempo import motion_beats
 from onbeat.motion import Body, Motion
 from onbeat.motion.edit import stature
 from onbeat.motion.features import hand_features
+from onbeat.motion.problems import odd_size
 from onbeat.studio.advice import here
 from onbeat.studio.tasks import Done, LookTask, MotionSeen
 from onbeat.studio.telling import Tell
@@ -61,16 +63,27 @@ def _seen(out: Path, id: str, path: Path, name: str, rate: float | None) -> Moti
         motion = read_motion(path, rate)
         if motion.duration > LONGEST:
             raise OnbeatError(f"{name} lasts {motion.duration / 60:.0f} minutes; one of up to 30 is taken: cut it")
-        told = _named(_note(notes, [str(w.message) for w in warned]), path, name)
-        view = motion_view(id, name, motion, told)
+        sizes = [w for w in warned if issubclass(w.category, UnitWarning)]
+        odd = [str(sizes[0].message)] if sizes else _odd_size(motion)
+        told = _named(_note(notes, [*odd, *(str(w.message) for w in warned)]), path, name)
+        view = motion_view(id, name, motion, told, odd=bool(odd))
     write_atomically(out / f"{id}.json", msgspec.json.encode(view))
     stored = not any(issubclass(warning.category, RateWarning) for warning in warned)
     return MotionSeen(id, None, view.seconds, view.fps, view.body, view.note, stored)
 
 
-def motion_view(id: str, name: str, motion: Motion, note: str = "") -> MotionView:
-    """What is seen in a motion, and how to draw it."""
-    body, stops = _body(motion)
+def _odd_size(motion: Motion) -> list[str]:
+    """A line on a body of no person's size, as `onbeat info` has it."""
+    try:
+        body = Body.of(motion.skeleton)
+    except BodyError:
+        body = None
+    return [said] if (said := odd_size(motion, body)) else []
+
+
+def motion_view(id: str, name: str, motion: Motion, note: str = "", *, odd: bool = False) -> MotionView:
+    """What is seen in a motion, and how to draw it; an ``odd`` size is doubted beside its figure."""
+    body, stops = _body(motion, odd)
     keyposes = _keyposes(motion)
     scene = page_data(motion, None, {"title": name, "stops": stops.round(4).tolist()}, None, keyposes)
     return MotionView(
@@ -87,14 +100,15 @@ def motion_view(id: str, name: str, motion: Motion, note: str = "") -> MotionVie
     )
 
 
-def _body(motion: Motion) -> tuple[str, Times]:
+def _body(motion: Motion, odd: bool) -> tuple[str, Times]:
     """Who moves, in words, and when the hands come to rest."""
     joints = f"{len(motion.skeleton)} joints"
     try:
         body = Body.of(motion.skeleton)
     except BodyError as error:
         return f"{joints}, no body to dance with: {error}", np.zeros(0)
-    return f"{stature(motion):.2f} m, {joints}", hand_features(motion, body).body_stops
+    doubt = " (is that right?)" if odd else ""
+    return f"{stature(motion):.2f} m{doubt}, {joints}", hand_features(motion, body).body_stops
 
 
 def _keyposes(motion: Motion) -> Keyposes | None:

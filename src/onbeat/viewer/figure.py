@@ -86,7 +86,15 @@ class Figure:
         return a[..., None, :] + self.reach[..., None] * (b - a)[..., None, :]
 
     def bounds(self, positions: Positions) -> tuple[Positions, Positions]:
-        """Lowest and highest corner (..., 3) in metres of the box around the figure."""
+        """Lowest and highest corner (..., 3) in metres of the box around the figure.
+
+        Raises
+        ------
+        BodyError
+            If there is nothing of it to see.
+        """
+        if not len(self.joints):
+            raise BodyError("there is nothing of the body to draw: none of its bones has a length")
         ends = self.ends(positions)
         radii = self.radii[..., None]
         return (ends - radii).min((-3, -2)), (ends + radii).max((-3, -2))

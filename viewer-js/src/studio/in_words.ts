@@ -5,7 +5,7 @@ import { type Curve, lastBefore, readCurve } from "../data";
 import type { Beat } from "./beat_sheet";
 import type { SongView } from "./contract";
 import type { Stretch } from "./locks";
-import { exactly, plural } from "./words";
+import { exactly, pace, plural } from "./words";
 
 const SAME = 0.004; // [s] a beat that was not moved
 const ON_BEAT = 0.1; // [s]
@@ -25,8 +25,8 @@ export function songInWords(song: SongView, beats: readonly Beat[], meter: numbe
   const { own, gone } = corrected(beats, song.heard_beats);
   const parts = [
     `Beats over the waveform of ${exactly(song.duration)}`,
-    `${Math.round(song.tempo)} beats a minute`,
-    `${meter} in a bar`,
+    pace(song.tempo),
+    song.tempo > 0 ? `${meter} in a bar` : "",
     `${plural(beats.length, "beat")}, ${down} of them begin bars`,
     own || gone ? `put right: ${own} not as they were heard, ${gone} of those heard are gone` : "all as they were heard",
     highest(readCurve(song.intensity), "the music"),

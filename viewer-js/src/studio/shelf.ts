@@ -10,7 +10,7 @@ import { newLibrary } from "./library_dialog";
 import { isGuessed } from "./rate_form";
 import type { Store } from "./store";
 import { go } from "./view";
-import { exactly, isSkeleton, plainName, plural } from "./words";
+import { exactly, isSkeleton, pace, plainName, plural } from "./words";
 
 interface Section {
   root: HTMLElement;
@@ -112,7 +112,7 @@ export class Shelf {
 
   private songs({ songs }: Project): CardData[] {
     return songs.map(({ id, name, state, job, error, duration, tempo, edited }) => {
-      const line = [exactly(duration), `${Math.round(tempo)} bpm`, edited ? "beats corrected" : ""]
+      const line = [exactly(duration), pace(tempo, "bpm"), edited ? "beats corrected" : ""]
         .filter(Boolean)
         .join(" · ");
       return {

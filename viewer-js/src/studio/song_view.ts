@@ -13,7 +13,7 @@ import { palette } from "./palette";
 import { pending } from "./pending";
 import { Transport } from "./transport";
 import { go, type Studio, type View } from "./view";
-import { exactly, plainName } from "./words";
+import { exactly, pace, plainName } from "./words";
 
 const KEEP_AFTER = 500; // [ms] without a change, the beats are sent
 /** Of each song the beats with every step, as long as the page is open; and what is still on its way to the server. */
@@ -127,8 +127,8 @@ export class SongView implements View {
     if (!heard || !sheet) return;
     const facts = [
       exactly(heard.duration),
-      `${Math.round(heard.tempo)} beats a minute`,
-      `${sheet.meter} in a bar`,
+      pace(heard.tempo),
+      ...(heard.tempo > 0 ? [`${sheet.meter} in a bar`] : []),
       `${sheet.beats.length} beats`,
     ];
     const { own, gone } = corrected(sheet.beats, heard.heard_beats);

@@ -30,6 +30,11 @@ export function plural(count: number, one: string, many = `${one}s`): string {
   return `${count} ${count === 1 ? one : many}`;
 }
 
+/** How fast a song is, or that it has no beat. */
+export function pace(tempo: number, unit = "beats a minute"): string {
+  return tempo > 0 ? `${Math.round(tempo)} ${unit}` : "no beat heard";
+}
+
 /** Whether a file is the skeleton of others. */
 export function isSkeleton(name: string): boolean {
   return /\.asf$/i.test(name);

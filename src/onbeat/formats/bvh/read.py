@@ -1,10 +1,10 @@
 """Biovision Hierarchy (BVH): joints with any channels, End Sites kept.
 
 A BVH file stores neither its unit nor which axis is up. Both are guessed when reading (see
-:mod:`onbeat.formats.conventions`) unless they are given. Position channels replace a joint's OFFSET; where they do not
-change over time they become the skeleton's offset. A helper root above a travelling joint (as in files whose ``Hips``
-stand under a ``joint_Root`` on the ground) is folded into that joint, so that the root is what travels. An End Site
-without length only says that a joint is a leaf, and is not kept.
+:mod:`onbeat.formats.upright` and :mod:`onbeat.formats.body_size`) unless they are given. Position channels replace a
+joint's OFFSET; where they do not change over time they become the skeleton's offset. A helper root above a travelling
+joint (as in files whose ``Hips`` stand under a ``joint_Root`` on the ground) is folded into that joint, so that the
+root is what travels. An End Site without length only says that a joint is a leaf, and is not kept.
 """
 
 from __future__ import annotations
@@ -18,12 +18,14 @@ import numpy as np
 
 from onbeat._shapes import Array, Positions
 from onbeat.errors import FormatError
+from onbeat.formats.body_size import guessed_unit
 from onbeat.formats.bvh.frames import Frames, read_frames
 from onbeat.formats.bvh.hierarchy import Joint, read_hierarchy, whole_number
-from onbeat.formats.conventions import Up, guessed_unit, guessed_up, turn_in_place, unit_metres, z_up_vectors
+from onbeat.formats.conventions import Up, turn_in_place, unit_metres, z_up_vectors
 from onbeat.formats.notes import tell
 from onbeat.formats.rates import ASK, printed_rate
 from onbeat.formats.text import decoded, open_text
+from onbeat.formats.upright import guessed_up
 from onbeat.motion import Motion, Skeleton
 from onbeat.motion import rotations as rot
 
@@ -132,7 +134,7 @@ def _motion(
         some = slice(None, None, max(1, len(root) // 32))
         moved = None if translations is None else translations[some]
         up = up or _told_up(Motion(raw, found.rotations[some], root[some], fps, name, moved))
-        metres = unit_metres(unit or guessed_unit(raw))
+        metres = unit_metres(unit or guessed_unit(raw, label))
         skeleton = Skeleton(names, parents, z_up_vectors(offsets, up) * metres, ends)
         turn_in_place(found.rotations[..., 1:], up)
         for vectors in (root, translations):

@@ -21,7 +21,14 @@ from onbeat.motion import Markers
 _LONGEST_LABEL = 127
 """With 255 of them a parameter's record is just short enough for its distance to the next, a signed word."""
 _MOST_LABELS = 255
-_SCREEN = {"x": ("+Y", "+X"), "y": ("+X", "+Y"), "z": ("+X", "+Z")}
+_SCREEN = {
+    "x": ("+Y", "+X"),
+    "y": ("+X", "+Y"),
+    "z": ("+X", "+Z"),
+    "-x": ("+Y", "-X"),
+    "-y": ("+X", "-Y"),
+    "-z": ("+X", "-Z"),
+}
 """The axes along a screen and up it."""
 _NEAR_ZERO = 1e-30
 """Written for a coordinate of a marker that is seen exactly at the origin, which many take for one that is not."""

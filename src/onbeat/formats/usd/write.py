@@ -49,8 +49,10 @@ def write_usd(motion: Motion, path: str | Path, convention: Convention | None = 
         If X is to point up, which USD does not know, or the motion cannot be held.
     """
     path, convention = Path(path), convention or Convention("z", "m")
-    if convention.up == "x":
-        raise FormatError(f"cannot write {path}: USD knows Y up and Z up, not X up; ask for one of them")
+    if convention.up not in ("y", "z"):
+        raise FormatError(
+            f"cannot write {path}: USD knows Y up and Z up, not {convention.up.upper()} up; ask for one of them"
+        )
     if path.suffix.lower() not in SUFFIXES:
         raise FormatError(f"cannot write {path}: a USD file ends in one of {', '.join(SUFFIXES)}")
     write_atomically(path, usd_bytes(motion, path.suffix.lower(), convention))

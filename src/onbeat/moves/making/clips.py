@@ -12,10 +12,11 @@ from onbeat.errors import LibraryError, OnbeatError
 from onbeat.motion.body import Body
 from onbeat.motion.mirror import mirrored
 from onbeat.motion.motion import Motion
-from onbeat.motion.problems import odd_size
+from onbeat.motion.problems import in_place, odd_size
 from onbeat.motion.retarget import retarget, stands_in_rest
 from onbeat.motion.skeleton import Skeleton
 from onbeat.moves.library import CLIP_RATE, SHORTEST, Clip
+from onbeat.moves.making.stretches import Stretch, use_of
 from onbeat.moves.recordings import Recording
 
 MIRROR_SUFFIX = "~mirror"
@@ -33,7 +34,8 @@ class Read:
     recording : which.
     body : digest of its own skeleton.
     seconds : how long it is.
-    notes : what its reader warned of.
+    notes : what its reader warned of, and what is wrong with the motion.
+    stretches : what of it is used.
     load : its motion, at ``CLIP_RATE`` at most.
     """
 
@@ -41,6 +43,7 @@ class Read:
     body: str
     seconds: float
     notes: tuple[str, ...]
+    stretches: tuple[Stretch, ...]
     load: Callable[[], Motion]
 
 
@@ -66,11 +69,15 @@ def read_recording(recording: Recording) -> Read:
     if motion.duration < SHORTEST:
         raise LibraryError(f"too short: {motion.duration:.1f} s, at least {SHORTEST:.1f} s are needed")
     body, seconds = skeleton_digest(motion.skeleton), motion.duration
+    used = use_of(motion, own)
+    if not used.stretches:
+        raise LibraryError(f"{used.note}; nowhere are there {SHORTEST:.1f} s without")
     motion = motion if motion.fps <= CLIP_RATE + 1e-6 else motion.resampled(CLIP_RATE)
     notes = tuple(dict.fromkeys(_one_line(warning.message, recording) for warning in noted))
     notes += (GUESSED,) if "guess" in own.how.values() else ()
     notes += _told_size(motion, own)
-    return Read(recording, body, seconds, notes, lambda: motion)
+    notes += tuple(note for note in (used.note, in_place(motion, own)) if note)
+    return Read(recording, body, seconds, notes, used.stretches, lambda: motion)
 
 
 def _told_size(motion: Motion, body: Body) -> tuple[str, ...]:
@@ -131,12 +138,15 @@ class Stage:
         standing = stands_in_rest(Body.of(self.skeleton))
         return skeleton_digest(self.skeleton) + ("" if standing else self.model.recording.digest)
 
-    def clips(self, read: Read, source: int, *, mirror: bool) -> list[Clip]:
-        """The clip of a recording, on its floor, and its mirror image."""
-        name = read.recording.name
-        motion = retarget(read.load(), self.skeleton, self.motion).replace(name=name)
-        clips = [Clip.of(motion, name, source)]
-        if mirror:
-            name += MIRROR_SUFFIX
-            clips.append(Clip.of(mirrored(motion).replace(name=name), name, source, mirrored=True))
+    def clips(self, read: Read, source: int, *, mirror: bool) -> list[tuple[Stretch, Clip]]:
+        """The clip of each stretch of a recording, on its floor, and its mirror image."""
+        whole = retarget(read.load(), self.skeleton, self.motion)
+        clips: list[tuple[Stretch, Clip]] = []
+        for stretch in read.stretches:
+            name = read.recording.name + stretch.suffix
+            motion = stretch.of(whole).replace(name=name)
+            clips.append((stretch, Clip.of(motion, name, source)))
+            if mirror:
+                name += MIRROR_SUFFIX
+                clips.append((stretch, Clip.of(mirrored(motion).replace(name=name), name, source, mirrored=True)))
         return clips

@@ -102,7 +102,7 @@ def rows_of(index: sqlite3.Connection, generation: Generation) -> list[Row]:
     try:
         found = [rows[clip] for _, clip in generation.members]
         for (number, _), row in zip(generation.members, found, strict=True):
-            if not 0 <= number < len(generation.entries) or generation.entries[number].content != row.content:
+            if not 0 <= number < len(generation.entries) or not row.is_of(generation.entries[number].content):
                 raise KeyError(row.id)
     except KeyError as error:
         raise LibraryError(f"the index of the library is damaged (clip {error}); build the library again") from None

@@ -66,19 +66,20 @@ class Place:
 
 
 class Placed(NamedTuple):
-    """The clips that were made of a recording: counts and arrays of each, or why there is none."""
+    """The clips that were made of a recording: key of the stretch, counts, arrays of each; or why there is none."""
 
     content: str
-    clips: tuple[tuple[Shape, tuple[np.ndarray, ...]], ...] = ()
+    clips: tuple[tuple[str, Shape, tuple[np.ndarray, ...]], ...] = ()
     problem: str | None = None
 
 
 def place(task: Place) -> Placed:
-    """Make the clip of a recording, and its mirror image."""
+    """Make the clips of a recording, and their mirror images."""
     recording = task.recording
     try:
         made = stage_of(task.model).clips(read_recording(recording), 0, mirror=task.mirror)
-        return Placed(recording.content, tuple((Shape.of(clip), tuple(arrays_of(clip))) for clip in made))
+        clips = tuple((stretch.key, Shape.of(clip), tuple(arrays_of(clip))) for stretch, clip in made)
+        return Placed(recording.content, clips)
     except ChangedError as error:
         return Placed("", problem=str(error))
     except (BodyError, LibraryError) as error:

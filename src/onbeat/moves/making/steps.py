@@ -6,7 +6,6 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from onbeat._shapes import Float32
 from onbeat.errors import LibraryError
 from onbeat.moves.disk.bodies import skeleton_text
 from onbeat.moves.engine import Engine, run
@@ -16,8 +15,8 @@ from onbeat.moves.making.clips import main_body
 from onbeat.moves.making.generations import Entry, Options
 from onbeat.moves.making.placing import Place, Placed, Reading, batches, look, place, stage_of
 from onbeat.moves.making.publish import Draft, Step, publish, rising
-from onbeat.moves.making.stock import Row, Stock
-from onbeat.moves.making.twins import find_twins
+from onbeat.moves.making.stock import Row, Stock, is_whole
+from onbeat.moves.making.taken import twin_recordings
 from onbeat.moves.methods import method_digest, reading_method
 from onbeat.moves.recordings import Recording
 
@@ -124,13 +123,13 @@ class Making:
         good = self._good()
         kinds = {False, True} if self.options.mirror else {False}
         rows = {n: self.stock.clips_of(self.recordings[n].content, stage) for n in good}
-        damaged = self.stock.drop_damaged(row for found in rows.values() for row in found.values())
+        damaged = self.stock.drop_damaged(row for found in rows.values() for row in found)
         missing: dict[str, int] = {}
         for n, found in rows.items():
             content = self.recordings[n].content
             if (known := self.stock.reading(content, stage)) is not None:
                 self._note(n, content, known.problem)
-            elif content in damaged or not kinds <= set(found):
+            elif damaged & {row.content for row in found} or not is_whole(found, kinds):
                 missing[content] = n
         count = 0
 
@@ -147,23 +146,17 @@ class Making:
 
     def _rows(self, recording: Recording, stage: str) -> list[Row]:
         found = self.stock.clips_of(recording.content, stage)
-        return [found[kind] for kind in (False, True) if kind in found and (self.options.mirror or not kind)]
+        return [row for row in found if self.options.mirror or not row.shape.mirrored]
 
     def _sort_out(self, rows: dict[int, list[Row]]) -> dict[int, list[Row]]:
         """Leave out takes that are there already."""
-        numbers = list(rows)
-        originals = [rows[n][0] for n in numbers]
-
-        def poses(clip: int) -> Float32:
-            row = originals[clip]
-            return row.shape.split(self.stock.clips.read(row.span))["poses"]
 
         def step(share: float) -> None:
             self.step("comparing takes", PLACING + (COMPARING - PLACING) * share)
 
         step(0.0)
-        for later, earlier in find_twins([row.shape.poses for row in originals], poses, step).items():
-            self.problems[numbers[later]] = f"moves as {self.recordings[numbers[earlier]].name} does, all along"
+        for later, earlier in twin_recordings(self.stock, rows, step).items():
+            self.problems[later] = f"moves as {self.recordings[earlier].name} does, all along"
         return {n: rows[n] for n in self._good()}
 
     def _entries(self) -> list[Entry]:

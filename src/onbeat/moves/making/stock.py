@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import sqlite3
 import zlib
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import msgspec
 import numpy as np
@@ -23,6 +23,7 @@ from onbeat.moves.disk.index import INDEX, committed, create_index, storing
 from onbeat.moves.disk.layout import Shape
 from onbeat.moves.disk.shards import Bytes, DiskShards, MemoryShards, Span
 from onbeat.moves.making.placing import Placed, Reading
+from onbeat.moves.making.stretches import MARK, Stretch
 
 SHARDS = "shards"
 PAIR = np.dtype([("first", "<u2"), ("second", "<u2"), ("distance", "<f4")])
@@ -31,13 +32,25 @@ _CLIP = "id, content, sha256, shard, offset, size, mirrored, fps, frames, joints
 
 
 class Row(NamedTuple):
-    """A clip in the index: its number, its recording's content, digest and place of its bytes, and its counts."""
+    """A clip in the index: its number, content, digest and place of its bytes, and its counts.
+
+    Its content is its recording's, with the key of its stretch where it is not all of the recording.
+    """
 
     id: int
     content: str
     digest: str
     span: Span
     shape: Shape
+
+    @property
+    def stretch(self) -> Stretch:
+        """Which part of its recording it is."""
+        return Stretch.told(self.content)
+
+    def is_of(self, content: str) -> bool:
+        """Whether it was made of a recording of this content."""
+        return self.content == content + self.stretch.key
 
 
 def clip_row(values: tuple[Any, ...]) -> Row:
@@ -62,6 +75,7 @@ def _can_be(row: Row) -> bool:
     """Whether the numbers of a row fit each other; there may be anything in the index of a damaged library."""
     numbers: list[object] = [*row.span, *row.shape[2:]]
     whole = all(isinstance(number, int) and number >= 0 for number in numbers)
+    whole = whole and isinstance(cast("object", row.content), str)
     return whole and 0 < row.shape.fps < 1e6 and row.shape.size == row.span.size
 
 
@@ -125,18 +139,17 @@ class Stock:
         with self.storing(), committed(self.index):
             self.index.executemany("INSERT OR REPLACE INTO readings VALUES (?, ?, ?, ?, ?, ?)", rows)
 
-    def clips_of(self, content: str, stage: str) -> dict[bool, Row]:
-        """The clips of a content on a stage, by whether they are mirror images."""
-        query = f"SELECT {_CLIP} FROM clips WHERE content = ? AND stage = ?"
-        found: dict[bool, Row] = {}
-        for values in self.rows(query, content, stage):
+    def clips_of(self, content: str, stage: str) -> list[Row]:
+        """The clips of a recording on a stage: stretch by stretch, each followed by its mirror image."""
+        part = "(content = ? OR (content >= ? AND content < ?))"
+        query = f"SELECT {_CLIP} FROM clips WHERE {part} AND stage = ?"
+        found: list[Row] = []
+        for values in self.rows(query, content, content + MARK, content + chr(ord(MARK) + 1), stage):
             try:
-                row = clip_row(values)
+                found.append(clip_row(values))
             except LibraryError:
                 self._forget([values[0]])
-            else:
-                found[row.shape.mirrored] = row
-        return found
+        return sorted(found, key=lambda row: (row.stretch.number, row.shape.mirrored))
 
     def put_clips(self, placed: Placed, stage: str) -> None:
         """Keep the clips of a recording, or why there is none."""
@@ -144,15 +157,16 @@ class Stock:
             self.put_readings([Reading(placed.content, problem=placed.problem)], stage)
             return
         with self.storing():
-            spans = [self.clips.append(arrays) for _, arrays in placed.clips]
+            spans = [self.clips.append(arrays) for _, _, arrays in placed.clips]
             self._put_rows(
-                (placed.content, stage, *shape, *span, _digest(arrays))
-                for (shape, arrays), span in zip(placed.clips, spans, strict=True)
+                (placed.content + key, stage, *shape, *span, _digest(arrays))
+                for (key, shape, arrays), span in zip(placed.clips, spans, strict=True)
             )
 
     def put_copy(self, row: Row, stage: str, data: Bytes) -> None:
         """Keep a clip of another library, if it is not there already."""
-        if row.shape.mirrored not in self.clips_of(row.content, stage):
+        query = "SELECT 1 FROM clips WHERE content = ? AND stage = ? AND mirrored = ?"
+        if not self.rows(query, row.content, stage, row.shape.mirrored):
             with self.storing():
                 span = self.clips.append([data])
                 self._put_rows([(row.content, stage, *row.shape, *span, row.digest)])
@@ -187,7 +201,7 @@ class Stock:
                 self.index.executemany("INSERT OR REPLACE INTO blocks VALUES (?, ?, ?, ?, ?)", rows)
 
     def drop_damaged(self, rows: Iterable[Row]) -> set[str]:
-        """Forget clips whose bytes are not what they were; the contents of their recordings."""
+        """Forget clips whose bytes are not what they were; their contents."""
         rows = list(rows)
         with ThreadPoolExecutor(2) as pool:
             good = list(pool.map(self.is_good, rows))
@@ -206,6 +220,12 @@ class Stock:
             return sha256(self.clips.read(row.span).data).hexdigest() == row.digest
         except LibraryError:
             return False
+
+
+def is_whole(rows: Sequence[Row], kinds: Collection[bool]) -> bool:
+    """Whether clips are all of a recording's, as they are (false) or mirror images (true)."""
+    wanted = rows[0].stretch.total if rows else 1
+    return all(sum(row.shape.mirrored == kind for row in rows) == wanted for kind in kinds)
 
 
 def _digest(arrays: Iterable[np.ndarray]) -> str:
