@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import msgspec
 import numpy as np
@@ -29,6 +31,7 @@ from walkable import brute_force, check_path, random_problem
 
 SECONDS = 9.0
 FPS = 30
+STRETCHES = ("salsa@0.00", "salsa@0.00~mirror", "salsa@3.95", "salsa@3.95~mirror", "bow", "bow~mirror")
 
 
 def song_of(seconds: float) -> Song:
@@ -164,6 +167,18 @@ def test_forbidden_clips_never_appear_whole_or_in_part(
     found = search(few, song, method=method, wished=wished)
     assert not {move.clip for move in found.plan.moves} & {0, 1, 3}
     assert (found.searched is None) == (largest > 1000)
+
+
+def test_the_name_of_a_recording_means_all_its_stretches() -> None:
+    clips = [SimpleNamespace(name=name, source=n // 2, mirrored=n % 2 == 1) for n, name in enumerate(STRETCHES)]
+    library = cast("MoveLibrary", SimpleNamespace(clips=clips))
+    marks = Wishes(forbidden=frozenset({"salsa"}), favourites=frozenset({"salsa@3.95", "bow"})).marks(library)
+    assert marks.forbidden.tolist() == [True, True, True, True, False, False]
+    assert marks.favourites.tolist() == [False, False, False, False, True, True]
+    marks = Wishes(forbidden=frozenset({"salsa@3.95"})).marks(library)
+    assert marks.forbidden.tolist() == [False, False, True, True, False, False]
+    with pytest.raises(PlanError, match="no clip 'sals'"):
+        Wishes(forbidden=frozenset({"sals"})).marks(library)
 
 
 def test_a_kept_stretch_is_in_the_part_of_a_great_library(

@@ -54,7 +54,7 @@ def test_the_dances_of_the_troupe_are_used_whole(dances):
 
 def test_lost_frames_split_a_clip_and_are_told(glitchy, tmp_path):
     library = build_library([glitchy], tmp_path / "library", mirror=False)
-    assert [clip.name for clip in library.clips] == ["a", "b", "b@2.13", "c"]
+    assert [clip.name for clip in library.clips] == ["a", "b@0.00", "b@2.13", "c"]
     assert [clip.source for clip in library.clips] == [0, 1, 2, 3]
     (note,) = library.notes
     assert note.startswith("b.npz: 0.4 s left out where joints leap (")
@@ -69,7 +69,7 @@ def test_lost_frames_split_a_clip_and_are_told(glitchy, tmp_path):
 def test_stretches_come_with_mirror_images_and_nothing_is_read_twice(glitchy, tmp_path):
     build_library([glitchy], tmp_path / "library", mirror=False)
     library = build_library([glitchy], tmp_path / "library")
-    names = ["a", "a~mirror", "b", "b~mirror", "b@2.13", "b@2.13~mirror", "c", "c~mirror"]
+    names = ["a", "a~mirror", "b@0.00", "b@0.00~mirror", "b@2.13", "b@2.13~mirror", "c", "c~mirror"]
     assert [clip.name for clip in library.clips] == names
     assert [clip.source for clip in library.clips] == [0, 0, 1, 1, 2, 2, 3, 3]
     rows = clip_numbers(tmp_path / "library")
@@ -95,7 +95,7 @@ def test_a_recording_is_removed_and_merged_with_all_its_stretches(glitchy, dance
     write_motion(lost(dances[1], 56, 60), more / "b.npz")
     build_library([more], tmp_path / "two", mirror=False)
     merged = merge_libraries([tmp_path / "one", tmp_path / "two"], tmp_path / "both")
-    assert [clip.name for clip in merged.clips] == ["a", "b", "b@2.13", "c", "e"]
+    assert [clip.name for clip in merged.clips] == ["a", "b@0.00", "b@2.13", "c", "e"]
     assert merged.problems == ("b.npz: the same as b.npz",)
     assert [clip.name for clip in remove_recordings(tmp_path / "one", ["b"]).clips] == ["a", "c"]
 

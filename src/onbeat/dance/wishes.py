@@ -14,6 +14,7 @@ from onbeat.dance.document import DanceDocument
 from onbeat.errors import PlanError
 from onbeat.moves.graph import GRID
 from onbeat.moves.library import Clip, MoveLibrary
+from onbeat.moves.making.stretches import recording_of
 
 FAVOURED = 0.5
 """What a second of a favourite clip earns besides, in units of a stop on its beat."""
@@ -63,8 +64,8 @@ class Kept:
 class Wishes:
     """What is wished of a dance.
 
-    A name marks a clip and its mirror image; the name of a mirror image marks it alone. What is forbidden and a
-    favourite is forbidden, unless the same name says both.
+    A name marks a clip and its mirror image, that of a recording all stretches of it; the name of a mirror image marks
+    it alone. What is forbidden and a favourite is forbidden, unless the same name says both.
 
     Parameters
     ----------
@@ -125,12 +126,13 @@ def _named(clips: Sequence[Clip], names: frozenset[str]) -> Bools:
     if not names:
         return np.zeros(len(clips), bool)
     known = {clip.name for clip in clips}
-    for name in sorted(names - known):
+    for name in sorted(names - known - {recording_of(name) for name in known}):
         near = difflib.get_close_matches(name, sorted(known), 3, 0.4) or sorted(known)[:3]
         raise PlanError(
             f"no clip {name!r} among the {len(known)} of the library; there are {', '.join(map(repr, near))}, …: "
             "`onbeat moves show` lists all of a library, dance.json those of a dance"
         )
-    originals = {clip.source for clip in clips if not clip.mirrored and clip.name in names}
-    meant = [clip.name in names or (clip.mirrored and clip.source in originals) for clip in clips]
+    own = [clip for clip in clips if not clip.mirrored]
+    originals = {clip.source for clip in own if names & {clip.name, recording_of(clip.name)}}
+    meant = [clip.name in names or clip.source in originals for clip in clips]
     return np.array(meant, bool)

@@ -21,6 +21,7 @@ from onbeat.moves.library import SHORTEST
 
 MARK = "@"
 """What stands before the second of its file at which a clip begins, in names and in the index."""
+_SUFFIX = re.compile(MARK + r"\d+\.\d\d$")
 _KEY = re.compile(MARK + r"(\d+\.\d\d) (\d+)/(\d+)$")
 
 
@@ -40,8 +41,14 @@ class Stretch(NamedTuple):
 
     @property
     def suffix(self) -> str:
-        """What the clip's name has behind the recording's: where in the file it begins, if that is not its start."""
-        return f"{MARK}{self.start:.2f}" if self.start > 0 else ""
+        """Behind the recording's name in the clip's: where in the file it begins, if it is one of many or late.
+
+        Examples
+        --------
+        >>> Stretch(0.0, 9.5).suffix, Stretch(0.0, 9.5, 1, 2).suffix, Stretch(3.5).suffix
+        ('', '@0.00', '@3.50')
+        """
+        return f"{MARK}{self.start:.2f}" if self.start > 0 or self.total > 1 else ""
 
     @property
     def key(self) -> str:
@@ -74,6 +81,17 @@ class Stretch(NamedTuple):
         """
         found = _KEY.search(content)
         return cls(float(found[1]), 0.0, int(found[2]), int(found[3])) if found else cls(0.0)
+
+
+def recording_of(name: str) -> str:
+    """The name of the recording that a clip is a stretch of.
+
+    Examples
+    --------
+    >>> recording_of("salsa@3.95"), recording_of("salsa"), recording_of("me@home")
+    ('salsa', 'salsa', 'me@home')
+    """
+    return _SUFFIX.sub("", name)
 
 
 class Use(NamedTuple):
