@@ -34,7 +34,7 @@ SOUNDS = (".wav", ".flac", ".ogg", ".mp3", ".m4a")
 @cyclopts.Parameter(name="*")
 @dataclass(frozen=True)
 class BeatFlags:
-    """Where the beats come from; without any of these, from the motion itself.
+    """Where the beats come from; without any of these, from the song.json beside a dance of onbeat's, or the motion.
 
     Parameters
     ----------

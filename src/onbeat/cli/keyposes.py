@@ -16,6 +16,7 @@ from rich.text import Text
 
 from onbeat.cli.keypose_input import NO_BEATS, BeatFlags, read_dance, read_example
 from onbeat.cli.keypose_sound import sound_of, titled
+from onbeat.cli.own_song import own_song
 from onbeat.cli.progress import Stages, warnings_as_lines
 from onbeat.cli.source_rate import SourceRate
 from onbeat.errors import OnbeatError
@@ -118,6 +119,8 @@ def find_command(
     _check_method(method, looks, t1, t2, thresholds)
     with warnings_as_lines(), Stages() as stages:
         stages("reading", 0.0, motion.name)
+        if song := own_song(motion, flags.music, flags.beats, flags.song_at):
+            flags = replace(flags, beats=song)
         source, beats, downbeats = read_dance(motion, flags, "local" in options.order or method != "energy")
         stages("finding", 0.0)
         found = find_keyposes(source, beats, method, options)

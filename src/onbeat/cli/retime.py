@@ -101,7 +101,7 @@ def retime_command(
     with warnings_as_lines():
         source = read_source(motion, own.source_fps, limits.joints)
         known = limits_for(source, limits.robot, limits.limits or []).scaled(limits.margin)
-        dance = dance_of(source, own, time.music is not None)
+        dance = dance_of(source, own.beside(motion), time.music is not None)
         when = When.of(dance.beats, time)
         result = _retimed(dance, known, method, fps, when)
         document = retime_document(result)

@@ -105,7 +105,7 @@ def robot_command(
     with warnings_as_lines(), Stages() as stages:
         model = read_robot(robot)
         dance = read_motion(motion, fps=own.source_fps)
-        beats, keyposes = own.of(dance)
+        beats, keyposes = own.beside(motion).of(dance)
         when = When.of(beats, time)
         staged = stage(dance, model, when.warp, beats, keyposes, feet, until=when.until, progress=stages)
         tried = _tried(model, staged, trial, stages) if trial.simulate else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cyclopts
@@ -12,6 +12,7 @@ from rich.text import Text
 
 from onbeat._shapes import Times
 from onbeat.cli.keypose_input import BeatFlags, beats_of
+from onbeat.cli.own_song import own_song
 from onbeat.errors import OnbeatError
 from onbeat.keyposes.document import KeyposesDocument
 from onbeat.keyposes.extract import find_keyposes
@@ -33,7 +34,8 @@ class OwnFlags:
     Parameters
     ----------
     danced_to
-        The song that the dance was danced to; its beats are heard. Without it and --beats the motion's own pulse.
+        The song that the dance was danced to; its beats are heard. Without it and --beats the song.json beside a
+        dance that onbeat made, else the motion's own pulse.
     beats
         The beats of the dance: a file with a time a line, or a song.json.
     song_at
@@ -56,6 +58,11 @@ class OwnFlags:
         if self.danced_to and self.beats:
             raise OnbeatError(f"--danced-to {self.danced_to} and --beats {self.beats}: give one of them")
         return BeatFlags(self.danced_to, self.beats, self.song_at, self.source_fps)
+
+    def beside(self, motion: Path) -> OwnFlags:
+        """These, with the beats of the song that a dance of onbeat's was made to where none are told."""
+        song = own_song(motion, self.danced_to, self.beats, self.song_at)
+        return self if song is None else replace(self, beats=song)
 
     def of(self, motion: Motion) -> tuple[Times, Times]:
         """The beats and the keyposes of a motion, in its own seconds."""
