@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -55,16 +55,23 @@ class OpenPage:
 
 
 @pytest.fixture(scope="session")
-def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+def launch(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[], Any]]:
+    """Starts a chromium."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     path = os.environ.get("ONBEAT_CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
     if not path:
         pytest.skip("no chromium found: install it, or set ONBEAT_CHROMIUM to its path")
     with sync_api.sync_playwright() as playwright:
         fonts = own_fonts(tmp_path_factory.mktemp("fonts"))
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS, env=fonts)
-        yield browser
-        browser.close()
+        yield lambda: playwright.chromium.launch(executable_path=path, args=FLAGS, env=fonts)
+
+
+@pytest.fixture(scope="module")
+def chromium(launch: Callable[[], Any]) -> Iterator[Any]:
+    """A browser for the tests of one file: no page stays open that would be drawn beside all other tests."""
+    browser = launch()
+    yield browser
+    browser.close()
 
 
 @pytest.fixture(scope="module")
